@@ -31,8 +31,7 @@ pub(crate) fn together(names: &[&str]) -> String {
     })
 }
 
-/// Combines names that consist of all combinations of some words, for example
-/// `mpm-{linear,ugimp}-{flip,apic}`. Returns `None` otherwise.
+/// Combines all combinations of some words: `mpm-{linear,ugimp}-{flip,apic}`; `None` otherwise.
 fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     let at = |k: usize| {
         names.iter().map(|name| name.get(k)).collect::<Option<Vec<&String>>>().map(distinct)

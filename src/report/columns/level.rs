@@ -236,8 +236,7 @@ impl LevelRow<'_> {
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())
     }
 
-    /// Returns the largest error at the end: the error of the judged quantity if this is a primary
-    /// unknown, otherwise the error of the displacement.
+    /// Returns the largest error at the end of the judged primary unknown or of the displacement.
     fn linf(&self) -> f64 {
         let run = &self.level.run;
         let errors =

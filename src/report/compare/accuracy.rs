@@ -8,8 +8,7 @@ use crate::verify::Quantity;
 /// Maximum relative difference between spacings that count as equal.
 const SAME_SPACING: f64 = 1e-6;
 
-/// Maximum error that counts as rounding for a case without an order, as a fraction of the size of
-/// the judged quantity. Changes of such errors are not compared.
+/// Error that counts as rounding for a case without an order, over the size of the quantity.
 const ROUNDING: f64 = 1e-11;
 
 /// Verdict of `run --gate` on errors that are due to rounding.
@@ -60,8 +59,7 @@ fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     }
 }
 
-/// Returns the error change on a level that newly or no longer fails, or else on the finest level
-/// with a change, or else the largest one.
+/// Returns the error change: of a level that newly or no longer fails, the finest, or the largest.
 pub(super) fn error(
     pairs: &[LevelPair<'_>],
     axis: Option<&str>,

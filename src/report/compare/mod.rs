@@ -1,9 +1,8 @@
 //! Lists the changes between the JSON documents of two runs, the most important first.
 //!
-//! The comparison shows whether a pull request makes a method less accurate, less stable or more
-//! expensive. Cases are paired by suite and name, and levels by cells, spacing and particles per
-//! cell. Cases and levels without a counterpart are listed but not judged. Work is the number of
-//! particle-node transfers, which is the same on all machines.
+//! Cases are paired by suite and name, and levels by cells, spacing and particles per cell; others
+//! are listed but not judged. Work is the number of particle-node transfers, which is the same on
+//! all machines.
 //!
 //! A case that only bounds the drift of conserved sums has no error, so its verdict is compared.
 

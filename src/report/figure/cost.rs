@@ -9,8 +9,7 @@ use std::ops::Range;
 /// Maximum number of lines with a separate colour and name that a reader can distinguish.
 const MOST_NAMED: usize = 7;
 
-/// Creates a diagram for each ranking of a suite: `work` is an axis label, `unit` part of file
-/// names.
+/// Creates a diagram of each ranking; `work` is an axis label, `unit` part of file names.
 pub fn cost_figures(
     outcome: &SuiteOutcome,
     rankings: &[Ranking],

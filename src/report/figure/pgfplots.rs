@@ -1,7 +1,6 @@
 //! Writes figures and their data as source for the LaTeX package PGFPlots.
 //!
-//! Each document compiles on its own (class `standalone`). For a paper, copy its `tikzpicture`, or
-//! include the file with the package `standalone`.
+//! Each document compiles on its own or within a paper (class and package `standalone`).
 
 use super::log_log::order_name;
 use super::plot::style::{CONTEXT, MarkerShape, NEUTRAL, look};
@@ -10,8 +9,7 @@ use crate::report::latex::escaped;
 
 const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
 
-/// Minimum length (decades) of a logarithmic axis on which powers of ten are the only labels.
-/// Shorter axes also have labels at 2 and 5 times powers of ten.
+/// Minimum length (decades) of a logarithmic axis with labels at powers of ten only.
 const SHORT: f64 = 2.0;
 
 struct PgfDocument {

@@ -11,8 +11,7 @@ use crate::verify::{
 /// Maximum number of curves in one plot, because a reader cannot distinguish more.
 const MOST_SERIES: usize = 6;
 
-/// Plots errors over spacings. All plots of a suite have the same axes. Cases with a single level
-/// have no order and are excluded; a table lists their errors.
+/// Plots errors over spacings, on the same axes in all plots, for cases with several levels.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let is_plotted = |(_, study): &NamedStudy<'_>| study.compared && study.levels.len() > 1;
     let studies = outcome.results(CaseOutcome::convergence).filter(is_plotted);

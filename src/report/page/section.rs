@@ -115,9 +115,8 @@ fn figure(id: &str, svg: &str, name: &str) -> Html {
     Html::block("figure", &[("id", id), ("class", "broad")], &[figure, caption])
 }
 
-/// Converts a standalone SVG document to an element of the page. The page already contains the
-/// style sheet of figures, so the copy in the document is removed. The style sheet of the page sets
-/// the size of a figure; the `viewBox` preserves its shape.
+/// Converts a standalone SVG document to an element of the page, which already contains the style
+/// sheet of figures and sets their size; the `viewBox` preserves the shape.
 pub(super) fn inline_svg(document: &str) -> Html {
     let mut inline = document.trim().to_owned();
     while let Some(start) = inline.find("<style") {

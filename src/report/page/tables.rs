@@ -71,8 +71,7 @@ fn share(kept: usize, all: usize) -> Html {
     Html::tag("td", &[], text)
 }
 
-/// Creates a cell with the colour of a result. Only the text is coloured, because a background
-/// would hide the shadow that indicates further columns.
+/// Colours only text: a background would hide the shadow that indicates further columns.
 fn coloured(result: Option<CaseResult>, text: String) -> Html {
     let class = result.map_or("", CaseResult::name);
     Html::tag("td", &[], Html::tag("span", &[("class", &plain(class))], text))
@@ -175,8 +174,7 @@ pub(super) fn result(case: &CaseOutcome) -> Html {
     Html::tag("span", &[("class", &plain(name))], name)
 }
 
-/// Creates three cells: the order with its interval, the judged error on the finest level that
-/// counts, and the particle-node transfers on the finest level.
+/// Creates three cells: order with interval, judged error, and transfers on the finest level.
 pub(super) fn figure_cells(case: &CaseOutcome) -> [Html; 3] {
     let study = case.convergence();
     let order = study.and_then(|study| study.judgement.order);

@@ -79,8 +79,7 @@ fn first_sentence(text: &str) -> &str {
     text.match_indices(". ").find(ends).map_or(text, |(at, _)| &text[..=at])
 }
 
-/// Returns a table with one line for each case, as printed by `run`. The next line has the
-/// expectation, or the reason why the case was not tested.
+/// Returns a line for each case, followed by its expectation or why it was not tested.
 pub fn summary(outcomes: &[SuiteOutcome]) -> String {
     let rows = outcomes.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)));
     let cases: Vec<SuiteCase<'_>> = rows.collect();

@@ -1,6 +1,5 @@
-//! Cost tables: the work of each method for a target error, and the exponent k in work ~ error^k,
-//! compared with theory. The module also writes the reports of timed suites. Their times depend on
-//! the machine and are therefore not in snapshots.
+//! Cost tables: the work of each method for a target error, and the exponent k in work ~ error^k.
+//! Reports of timed suites depend on the machine and are therefore not in snapshots.
 //!
 //! Snapshots give work as the number of particle-node transfers, which is equal on all machines.
 
@@ -43,8 +42,7 @@ fn relative(ranking: &Ranking) -> String {
     format!("divided by {size}, the largest exact value of the judged quantity")
 }
 
-/// Returns the report of a timed suite: the ranking by seconds, and the cheapest method. With
-/// `is_verbose` also all levels, and the ranking by transfers.
+/// Returns the report of a timed suite, if `is_verbose` with all levels and the work in transfers.
 pub fn timed(timed: &TimedSuite, is_verbose: bool) -> String {
     let mut text = format!("{}: {}\n\n", timed.outcome.suite, timed.outcome.title);
     text += &machine(&timed.machine);

@@ -1,8 +1,7 @@
 //! Detects drift of a report: compares two texts number by number.
 //!
-//! Text and whole numbers (counters) must be equal. Decimal numbers may differ by [`RELATIVE`] or
-//! by one unit in the last printed digit, as between platforms. A number that is not finite equals
-//! nothing, not even itself.
+//! Text and counters must be equal. Decimal numbers may differ by [`RELATIVE`] or by one unit in
+//! the last printed digit. A number that is not finite equals nothing, not even itself.
 
 /// Maximum relative difference between decimal numbers that count as equal.
 pub const RELATIVE: f64 = 1e-3;

@@ -176,8 +176,7 @@ fn by_level<'a>(
     }
 }
 
-/// Returns the heading of a value that belongs to a level and the next coarser one: both names, or
-/// the numbers of the two levels if the names are long.
+/// Returns the names of a level and the next coarser one, or their numbers if the names are long.
 fn pair_heading(names: &[String], index: usize) -> String {
     let fine = &names[index];
     match index.checked_sub(1).map(|coarser| &names[coarser]) {

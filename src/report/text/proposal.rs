@@ -9,9 +9,8 @@ const WIDTH: usize = 96;
 /// Indentation of continuation lines in a list of cases.
 const LIST: &str = "           ";
 
-/// Writes the proposed `expect` of a suite, with one entry for all cases with equal proposals,
-/// after `remarks`. Comments explain the origin of each key and how to reach a stronger
-/// expectation.
+/// Writes the proposed `expect` of a suite after `remarks`, with one entry for all equal proposals.
+/// Comments explain the origin of each key and how to reach a stronger expectation.
 pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) -> String {
     let proposed = outcome.results(CaseOutcome::convergence).map(|(case, study)| {
         let mut proposal = propose(study);
@@ -22,8 +21,7 @@ pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) 
     let mut lines = Vec::new();
     remarks.for_each(|remark| folded(&mut lines, "# ", &remark));
     lines.push("expect:".to_owned());
-    // An external solver is only one method of its suite. Its results do not apply to other
-    // methods, so the entry names the cases of the solver.
+    // Results of an external solver do not apply to other methods, so the entry names its cases.
     let is_external = outcome.cases.iter().any(|case| case.subject == "external");
     let alone = groups.len() == 1 && !is_external;
     for (proposal, cases) in &groups {

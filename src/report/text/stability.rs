@@ -30,8 +30,7 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
 
 type NamedSweep<'a> = (&'a str, &'a StabilityStudy);
 
-/// Adds tables of limits (a row for each case, a column for each value of the swept parameter) and
-/// tables of runs (a row for each case and value).
+/// Adds tables of limits (by case and swept value) and of runs (a row for each case and value).
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let (seeking, others): (Vec<NamedSweep<'_>>, Vec<NamedSweep<'_>>) =
         studies.iter().partition(|(_, study)| study.sought.is_some());

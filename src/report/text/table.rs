@@ -180,9 +180,8 @@ const LONGEST: usize = 44;
 /// Rows of one case: its name, and the cells of each row.
 type CaseRows = (String, Vec<Vec<String>>);
 
-/// Puts the name of the block in front of each of its rows. Equal blocks are merged and get a
-/// combined name. If most blocks are equal and their combined name would be too long, they are
-/// called `all cases` or `all other cases`, and stand last.
+/// Puts the name of the block in front of its rows. Equal blocks are merged; if most are equal and
+/// their combined name is too long, they are called `all (other) cases`, and stand last.
 pub(crate) fn merged_blocks(blocks: impl Iterator<Item = CaseRows>) -> Vec<Vec<String>> {
     let mut groups = grouped(blocks.map(|(name, block)| (block, name)));
     let names: Vec<&String> = groups.iter().flat_map(|(_, names)| names).collect();

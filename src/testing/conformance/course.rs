@@ -85,9 +85,8 @@ fn weights(problem: &LevelProblem, samples: &Samples) -> Option<Breach> {
     (!is_near).then(|| Breach::new("weights", wanted, format!("{sum:e} m^D")))
 }
 
-/// Returns breaches due to initial displacements and velocities that differ from those of the
-/// particles. Leapfrog solvers may report the velocities half a step before the start, so a
-/// difference of up to half the largest velocity is allowed.
+/// Returns breaches due to initial displacements and velocities other than those of the particles.
+/// Leapfrog solvers may report velocities half a step early, so half the largest one is allowed.
 fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let particles = &problem.particles;
     let mut breaches = Vec::new();
@@ -209,8 +208,7 @@ pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
     Some(Breach::new("sample", wanted, seen))
 }
 
-/// Reports a breach if the solver ignores the step length: in half a step, points must move half as
-/// far. Returns `None` for a body that starts at rest.
+/// Reports a breach if points do not move half as far in half a step; `None` for a body at rest.
 pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let [first, second, ..] = states else { return None };
     let fastest = largest(&first.samples.velocity);
@@ -238,8 +236,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     })
 }
 
-/// Reports a breach if a second subject of the same problem gives a run that differs beyond
-/// rounding.
+/// Reports a breach if a second subject of the problem gives another run, up to rounding.
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
     let mut again = vec![RunState::from_subject(subject.as_ref())];

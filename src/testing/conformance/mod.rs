@@ -20,8 +20,7 @@ use record::{RunState, record};
 
 const STEPS: usize = 6;
 
-/// Built-in suites for the checks, starting with the simplest. The bodies move at the start,
-/// because at rest a wrong step length would have no effect.
+/// Built-in suites, the simplest first. At rest, a wrong step length would have no effect.
 const SUITES: [&str; 4] =
     ["vibrating-bar", "mms-periodic-bar-sin", "translating-body", "mms-axis-aligned-2d"];
 

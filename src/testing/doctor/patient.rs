@@ -17,8 +17,7 @@ pub(super) struct Examined {
 pub(super) enum Hindrance {
     /// The solver lacks these capabilities, or refuses the problem for this reason.
     Lacks(String),
-    /// An effect of the method masks the examined quantity, also from the examinations that depend
-    /// on this one. The text completes "the solver lacks ...".
+    /// Masked, also for the examinations that depend on this one; completes "the solver lacks ...".
     Masked(String),
     /// The solver did not complete a run, and gave this message.
     Broke(String),
@@ -81,8 +80,7 @@ impl Patient<'_> {
         }
     }
 
-    /// Returns the first supported scene: all `laws` for one of the `dimensions`, then the next
-    /// one.
+    /// Returns the first supported scene, with any of the `laws` before the next dimension.
     pub(super) fn able(
         &self,
         dimensions: &[usize],

@@ -22,8 +22,7 @@ pub(super) struct Rules<const N: usize> {
 }
 
 impl<const N: usize> Rules<N> {
-    /// Reports the first finding that agrees with the first wrong row, with all wrong rows that
-    /// agree.
+    /// Reports the first finding that fits the first wrong row, with all wrong rows that it fits.
     pub(super) fn judge(&self, rows: &[Row<N>]) -> Examined {
         let agrees = |(_, values): &Row<N>, pattern: &Pattern<N>| {
             values.iter().zip(pattern).zip(&self.quantities).all(|((value, wanted), quantity)| {

@@ -123,8 +123,7 @@ pub(super) struct Extras {
 }
 
 impl BoxScene {
-    /// Creates a body at rest of `cells` cells per axis from `from` on, with `margin` cells around
-    /// it.
+    /// Creates a body at rest of `cells` cells per axis at `from`, with `margin` cells around it.
     pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, margin: f64) -> Self {
         let (dimension, law) = kind;
         let low = from[..dimension].to_vec();
@@ -145,8 +144,7 @@ impl BoxScene {
             strength: 1e-4,
             friction: 1.0,
             dilation: 1.0 / 3.0,
-            // No power, product or ratio of the other numbers, so that each possible mistake of a
-            // solver changes accelerations by another factor.
+            // No power, product or ratio of the other numbers, so mistakes give different factors.
             density: 1.7,
             velocity: AffineField::default(),
             displacement: AffineField::default(),

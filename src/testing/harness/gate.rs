@@ -43,8 +43,7 @@ impl Gate {
             trials.extend(cases);
             suites.extend(suite);
         }
-        // Report tests come last: each one blocks a thread until all cases of its suite are
-        // complete.
+        // Report tests come last: each one blocks a thread until all its cases are complete.
         trials.extend(suites.iter().map(report));
         if self.with_overview {
             trials.extend(self.of_all(suites));

@@ -44,8 +44,7 @@ const WAITING: usize = 4;
 pub struct SuiteFolder(Gate);
 
 impl SuiteFolder {
-    /// Tests the suites of a folder with the methods that they list. A relative path starts at the
-    /// root of the package, where tests run.
+    /// Tests the suites of a folder, relative to the root of the package, with their methods.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         let folder = folder.into();
         Self(Gate { snapshots: folder.clone(), folder, solver: None, with_overview: false })
@@ -83,8 +82,7 @@ impl SuiteFolder {
         if self.run(std::env::args_os()) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
     }
 
-    /// Runs the tests that a command line selects (its first argument is the program). Returns
-    /// whether all tests passed.
+    /// Runs the tests that a command line selects, and returns whether all of them passed.
     pub fn run<Words>(&self, words: Words) -> bool
     where
         Words: IntoIterator,

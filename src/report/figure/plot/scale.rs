@@ -84,8 +84,7 @@ impl Label {
         if self.exponent.is_none() {
             return SvgElement::text(at, anchor, &self.base);
         }
-        // The label consists of two texts that meet at `joint`, because some converters anchor
-        // superscripts separately from the text before them.
+        // Some converters anchor a superscript separately, so two texts meet at `joint`.
         let left_of_joint = text_width(&self.base, TEXT);
         let joint = match anchor {
             "start" => at.0 + left_of_joint,

@@ -1,8 +1,7 @@
 //! Examination of modified Cam-clay along three strain paths: swelling, compression, and shear.
 //!
-//! The motion of the heavy body is prescribed. Paths end at states whose mean stress p and
-//! deviatoric stress q follow from closed forms (Roscoe & Burland 1968), with the ratio of moduli
-//! `r = G/K`:
+//! Paths of the heavy body end at states whose mean stress p and deviatoric stress q follow from
+//! closed forms (Roscoe & Burland 1968), with the ratio of moduli `r = G/K`:
 //!
 //! - swelling: `p = p0 exp(eps_v/kappa)` and `q = 2 r |p - p0|`, because G is proportional to p;
 //! - every yielding state: `p + q^2/(M^2 p) = pc`, where `pc` has grown by the factor
@@ -70,8 +69,7 @@ struct PathEnd {
 }
 
 impl PathEnd {
-    /// Computes the values in the middle of the body at the end of `course`, a run of `scene`.
-    /// Returns an error if the body has not followed the path.
+    /// Measures the end of `course`, a run of `scene`, unless the body has left the path.
     fn measure(path: &'static str, scene: &BoxScene, course: &Course) -> Result<Self, Hindrance> {
         let d = scene.dimension;
         let f = deformation_gradient(course, scene);

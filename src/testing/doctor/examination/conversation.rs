@@ -1,5 +1,4 @@
-//! Examination of the protocol: equal requests give equal answers, for any number of steps per
-//! message.
+//! Examination of the protocol: equal requests give equal answers, in any number of messages.
 
 use super::force::ramp;
 use crate::external::ProblemNeeds;

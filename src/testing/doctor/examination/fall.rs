@@ -146,8 +146,7 @@ impl FallTimes {
         self.has_lag(0.0) || self.has_lag(0.5)
     }
 
-    /// Whether the times are those of shorter steps, with velocities at most half such a step
-    /// early.
+    /// Whether the times are those of shorter steps, with velocities at most half of one early.
     fn is_of_shorter_steps(&self) -> bool {
         let [[lag, most_lag], [share, most_share]] = [self.lag, self.share];
         let is_lag = lag >= -NEAR && most_lag <= 0.5 * most_share.sqrt() + NEAR;

@@ -68,8 +68,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let asked = Questions::default();
     let force: ForceAlong = |_, t| FORCE + RATE * t;
     let mut course = run(patient, &moving, &asked, true, force);
-    // A request outside the body ends the run; a second run without this check records all
-    // requests.
+    // A request outside the body ends the run; a run without this check records all requests.
     if matches!(course, Err(Hindrance::Broke(_))) {
         course = run(patient, &moving, &asked, false, force).or(course);
     }
@@ -188,8 +187,7 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let gained = |k: usize| course.mean(velocity, k)[0] - VELOCITY[0];
     let wanted = integral(end);
     let instants = &course.times[1..];
-    // If velocities lag by l and forces are late by s steps, the error is `-l dt F + (s - l) dt R
-    // t`.
+    // With velocities l and forces s steps late, the error is `-l dt F + (s - l) dt R t`.
     let errors: Vec<f64> = (1..=last).map(|k| gained(k) - integral(course.times[k])).collect();
     let (start, slope, off) = line(instants, &errors);
     let (lag, late) = (-start / (FORCE * dt), slope / (RATE * dt));

@@ -37,8 +37,7 @@ const NEAR: f64 = 0.04;
 
 const STEPS: u64 = 25;
 
-/// State with small strains. The errors here and at half its time show whether they grow with
-/// strain.
+/// State with small strains. Errors here and at half its time show whether they grow with them.
 const EARLY: usize = 4;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -294,8 +293,7 @@ fn deformation_gradient_at(course: &Course, scene: &BoxScene, k: usize) -> Vec<f
     f
 }
 
-/// Returns the initial stress (Pa), row by row, of a body with the initial deformation gradient
-/// `f`.
+/// Returns the initial stress (Pa), row by row, for the deformation gradient `f`.
 fn law_at(scene: &BoxScene, f: &[f64]) -> Result<Vec<f64>, Hindrance> {
     let d = scene.dimension;
     let deformed = BoxScene {

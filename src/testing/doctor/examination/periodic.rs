@@ -1,5 +1,4 @@
-//! Examinations of a body that fills a periodic axis: a rigid body that moves along the axis, and
-//! an elastic body whose ends press against each other.
+//! Examinations of a body that fills a periodic axis: rigid motion, and ends under pressure.
 
 use super::translation::VELOCITY;
 use crate::testing::doctor::motion::{CHANGED, uniform};

@@ -1,9 +1,8 @@
 //! Examination of tractions on the faces of a free body.
 //!
-//! Without walls, the momentum of a body grows by the force on its face, `P = A int p dt`. This is
-//! exact in every scheme that conserves momentum, for any motion of the body. Tractions on low
-//! faces are constant. Tractions on high faces are `p (1 + t/T)` with the run time T, times `3 (Y -
-//! Y0)^2/w^2` with the mean 1 along the width w of the face.
+//! Without walls, the momentum of a body grows by `P = A int p dt` in every scheme that conserves
+//! momentum. Tractions on low faces are constant. Tractions on high faces are `p (1 + t/T)` with
+//! the run time T, times `3 (Y - Y0)^2/w^2` with the mean 1 along the width w of the face.
 
 use super::stress::{constant_and_rate, judge_ends};
 use crate::testing::doctor::prelude::*;

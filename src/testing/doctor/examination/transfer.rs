@@ -73,8 +73,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
-    // With velocities in another order than points, the first step loses all, and later steps
-    // nothing.
+    // If velocities are in another order than points, only the first step loses all.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
         let seen = "after one step, the velocities of a stretching body belong to other points";
         let finding = SolverFinding::defect(

@@ -46,9 +46,8 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     Ok(slowed.unwrap_or_else(|| weights(motion, low, high, (way, speed))))
 }
 
-/// Returns a finding for non-uniform drag: points slow down at different rates, which do not depend
-/// on the step length. Wrong weights would reduce the speed by a fixed share in each step. The body
-/// has no stiffness, so points exert no forces on each other.
+/// Returns a finding if points of a body without stiffness slow down at different rates, which do
+/// not depend on the step length, unlike the losses of wrong weights.
 fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
@@ -57,9 +56,8 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
         return Ok(None);
     }
     let again = UniformMotion { course, scene: &halved, ..*motion };
-    // Losses are compared after the time of the first step, because later losses saturate. In two
-    // steps of half the length, drag causes the same loss, and wrong weights cause twice the loss.
-    // The limit for the ratio is the geometric mean of 1 and 2.
+    // Compares losses after the time of the first step: two half steps double the loss of wrong
+    // weights. The limit for the ratio is the geometric mean of 1 and 2.
     let (once, twice) = (lost(motion, 1), lost(&again, 2));
     let is_noise = !(once.1 * scene.steps as f64 > motion.patient.rounding());
     if is_noise || !((twice.1 / once.1).max(once.1 / twice.1) <= SQRT_2) {
@@ -90,8 +88,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
 }
 
-/// Returns the finding for weights that do not sum to one. `soft` contains the relative errors of
-/// displacement and velocity in a run without stiffness.
+/// Returns the finding for weights that do not sum to one; `soft` has errors without stiffness.
 fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) -> SolverFinding {
     let (way, speed) = motion.off();
     let [low, high, way, speed] = [low, high, way, speed].map(shown);
@@ -140,12 +137,10 @@ fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
 
 pub(crate) const CHANGED: &str = "positions-changed";
 
-/// Maximum change (v dt) of a position that weights do not explain. If a weight of a particle on a
-/// face is missing or counted twice, the error is larger.
+/// Maximum change (v dt) of a position; a missing weight on a face causes a larger error.
 const SLIGHT: f64 = 0.05;
 
-/// Returns a finding if velocities are correct, and only the positions of particles that are on a
-/// cell face before or after a step have an error in this step.
+/// Returns a finding if only positions of particles on a cell face have an error in a step.
 fn changed_on_faces(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let (rounding, origin) = (motion.patient.rounding(), &course.problem.grid.origin);

@@ -200,8 +200,7 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns a finding if most steps move the body by v dt and some steps do not. `ways` contains the
-/// displacements divided by the velocity after each step (s).
+/// Returns a finding if some steps do not move the body by v dt; `ways` are distances over v (s).
 fn unequal_steps(ways: &[f64], dt: f64) -> Option<SolverFinding> {
     let before = std::iter::once(&0.0).chain(ways);
     let lengths: Vec<f64> = ways.iter().zip(before).map(|(now, then)| (now - then) / dt).collect();

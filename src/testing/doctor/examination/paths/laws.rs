@@ -34,8 +34,7 @@ pub(in super::super) const PLANE_STRESS: Examination = Examination {
     examine: |patient| examine(patient, &PLATE),
 };
 
-/// Sets the yield stress and the hardening modulus (Pa). At the end of a path, hardening has
-/// increased the yield stress to about twice its initial value.
+/// Sets yield stress and hardening (Pa). Hardening about doubles the yield stress on a path.
 const METAL: fn(&mut BoxScene) = |scene| {
     scene.strength = YOUNG / 12_000.0;
     scene.extras.hardening = Some(YOUNG / 4.0);

@@ -110,8 +110,7 @@ struct Laws {
     measures: [f64; 2],
     paths: &'static [StrainPath],
     mistakes: &'static [LawMistake],
-    /// Returns the finding on a wrong stress that no mistake explains. The last argument is true if
-    /// the stress is right with another number of steps.
+    /// Returns the finding on a stress that no mistake explains, and whether the steps matter.
     otherwise: fn(&Leg, &[Leg], bool) -> LawCause,
 }
 
@@ -154,8 +153,7 @@ impl Leg {
         self.distance(&moved)
     }
 
-    /// Whether the stress agrees with `factor` times that of the changed law, and better than its
-    /// own.
+    /// Whether the stress fits `factor` times that of the changed law better than its own law.
     fn is_that_of(&self, (change, factor, _): &LawMistake) -> Result<bool, Hindrance> {
         let mut scene = self.scene.clone();
         change(&mut scene);

@@ -24,9 +24,8 @@ const UNEQUAL: StrainGradient = [[-0.000_75, 0.0, 0.0], [0.0, -0.000_1, 0.0], [0
 const ROTATION: StrainGradient =
     [[0.921_061 * 0.97 - 1.0, -0.389_418, 0.0], [0.389_418 * 0.97, 0.921_061 - 1.0, 0.0], [0.0; 3]];
 
-/// Maximum error on the path with a rotation; larger than on other paths, because affine transfers
-/// change a rotation in their first step, and explicit rates have a strain of the square of the
-/// rotation of a step: an error of 0.2 in 20 steps.
+/// Maximum error on the path with a rotation. Affine transfers change a rotation in their first
+/// step, and explicit rates have a strain of its square in each step: an error of 0.2 in 20 steps.
 const NEAR_WITH_ROTATION: f64 = 0.1;
 
 /// Sets the strength (Pa). The soil yields at a tenth of the final strain of a path.
@@ -182,8 +181,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Returns the axial and lateral Kirchhoff stress (Pa) of a Drucker-Prager soil in uniaxial
-    /// compression by the logarithmic strain `e > 0`.
+    /// Returns the axial and lateral Kirchhoff stress (Pa) after the logarithmic compression `e`.
     fn cone(scene: &BoxScene, e: f64) -> (f64, f64) {
         let (lambda, mu) = scene.lame();
         let (bulk, dilation) = (lambda + 2.0 * mu / 3.0, FRICTION * scene.dilation);

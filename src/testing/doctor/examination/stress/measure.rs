@@ -4,8 +4,7 @@
 
 use crate::testing::doctor::prelude::*;
 
-/// Rate of stretch along the first axis (1/s). The rate is negative, because artificial viscosity
-/// acts in compression only. Strains stay below 1e-3.
+/// Rate of compression along the first axis (1/s), where artificial viscosity acts.
 pub(super) const STRETCH: f64 = -5e-3;
 /// Rate of shear (1/s).
 pub(super) const SHEAR: f64 = 4e-3;
@@ -34,8 +33,7 @@ pub(crate) struct MeasuredModuli {
     pub(super) averaging: f64,
     /// Ratio of the momentum transferred by viscosity to that transferred by stress; at most 1.
     pub(super) viscous_share: f64,
-    /// Error of sums over the points relative to the momentum that the free faces gain, if the
-    /// points are a sample; zero for a complete set of points.
+    /// Error of sums over a sample, relative to the momentum that the free faces gain.
     pub(super) sampling_error: f64,
 }
 

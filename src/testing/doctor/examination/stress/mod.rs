@@ -1,10 +1,9 @@
 //! Examination of a body that stretches and shears: stress from the momentum flux in the middle.
 //!
-//! With an initial velocity `v = L (X - C)`, the strain is L t and uniform until waves arrive from
-//! the free faces. The middle plane with normal i has the area A. Through this plane the upper half
-//! of the body gains the momentum `-sigma_ij A` per unit time, and the lower half loses it. The
-//! transfer is measured in a tube, which consists of the points near axis i. It is computed from
-//! velocities alone, and is exact for any basis functions.
+//! With `v = L (X - C)`, the strain is L t and uniform until waves arrive from the free faces.
+//! Through the middle plane with normal i and area A, the upper half gains the momentum `-sigma_ij
+//! A` per unit time from the lower half. It is measured from velocities in a tube, the points near
+//! axis i, and is exact for any basis functions.
 //!
 //! ```text
 //! measure   the scene, stresses from momentum, and the columns `stress` and `deformation_gradient`
@@ -78,8 +77,7 @@ fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFi
     }))
 }
 
-/// Runs `scene` and measures its moduli. If the solver averages velocities (`averages`), a second
-/// run without stiffness measures the effect of averaging.
+/// Measures the moduli of `scene`. A run without stiffness measures the effect of averaging.
 fn measure(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -137,8 +135,7 @@ const MOST_AVERAGING: f64 = 3.3;
 /// Names of findings whose measured values viscosity can also cause.
 const UNNAMED: [&str; 3] = ["stress-scaled", "velocity-gradient-scaled", "moduli-differ"];
 
-/// Returns the finding on the part of the stress that is proportional to the strain rate. Such a
-/// part is negative if forces follow the strain with a delay.
+/// Returns the finding on the stress from the strain rate, negative if forces follow it late.
 fn viscosity(measured: &MeasuredModuli, scene: &BoxScene) -> SolverFinding {
     let seen = format!(
         "the stress contains a viscous part with the kinematic viscosity {} m2/s",

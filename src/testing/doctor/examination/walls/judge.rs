@@ -16,8 +16,7 @@ const ABSENT: f64 = 0.1;
 /// Maximum relative difference between forces of equivalent walls.
 const UNEVEN: f64 = 0.05;
 
-/// Maximum displacement through a wall with a correct force, relative to the displacement of a free
-/// body in the time in which a wave crosses one cell.
+/// Maximum [`Wall::through`] of a wall with a correct force.
 const THROUGH: f64 = 0.8;
 
 /// Maximum relative error of the force under gravity.

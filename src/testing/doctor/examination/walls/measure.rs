@@ -279,8 +279,7 @@ impl BarEnd {
         [constant / (scene.h * GRAVITY), rate / (c * GRAVITY)]
     }
 
-    /// Returns the mean normal stress (Pa) less than two cells from the wall at the end, if
-    /// reported.
+    /// Returns the mean normal stress (Pa) next to the wall at the end, if reported.
     fn stress_column(self, course: &Course, scene: &BoxScene) -> Option<f64> {
         let d = scene.dimension;
         let is_near = |label: &[f64]| {
