@@ -20,11 +20,7 @@ mod tests;
 pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
 pub use output::text;
+pub use pairs::compare;
 
 /// Default tolerance: changes that count as none, as in the [drift gate](super::text::drift).
 pub const TOLERANCE: f64 = super::text::drift::RELATIVE;
-
-/// Compares `old` with `new`. Changes by at most the relative `tolerance` are ignored.
-pub fn compare(old: &ReportDocument, new: &ReportDocument, tolerance: f64) -> ReportComparison {
-    pairs::compare(old, new, tolerance)
-}

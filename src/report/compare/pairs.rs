@@ -9,11 +9,8 @@ use super::{accuracy, stability};
 use crate::verify::{JudgedBox, distinct};
 use std::collections::BTreeMap;
 
-pub(super) fn compare(
-    old: &ReportDocument,
-    new: &ReportDocument,
-    tolerance: f64,
-) -> ReportComparison {
+/// Compares `old` with `new`. Changes by at most the relative `tolerance` are ignored.
+pub fn compare(old: &ReportDocument, new: &ReportDocument, tolerance: f64) -> ReportComparison {
     let mut before: BTreeMap<String, &CaseDocument> =
         old.cases().map(|(suite, case)| (name(suite, case), case)).collect();
     let problems = problem_moves(old, new);

@@ -118,10 +118,10 @@ impl LogLogPlot {
             entries.push(LegendEntry::new(band(&[(3.0, 0.0), (KEY - 3.0, 0.0)]), "Pareto front"));
         }
         if !self.others.is_empty() {
-            let line = SvgElement::line((0.0, 0.0), (KEY, 0.0)).set("stroke", CONTEXT);
+            let line = SvgElement::line((0.0, 0.0), (KEY, 0.0)).stroke(CONTEXT, 1.2);
             let count = self.others.len();
             let text = if count == 1 { "1 other method".into() } else { format!("{count} others") };
-            entries.push(LegendEntry::new(line.at("stroke-width", 1.2), &text));
+            entries.push(LegendEntry::new(line, &text));
         }
         entries.extend(series::marks(lines));
         entries
@@ -141,15 +141,13 @@ impl LogLogPlot {
 fn band(points: &[Pt]) -> SvgElement {
     SvgElement::through("polyline", points)
         .set("fill", "none")
-        .set("stroke", FRONT)
-        .at("stroke-width", BAND)
+        .stroke(FRONT, BAND)
         .set("stroke-linecap", "round")
         .set("stroke-linejoin", "round")
 }
 
 fn dotted(ends: &[Pt; 2]) -> SvgElement {
-    let line = SvgElement::line(ends[0], ends[1]).set("stroke", NEUTRAL);
-    line.at("stroke-width", 1.4).set("stroke-dasharray", "1.4 3")
+    SvgElement::line(ends[0], ends[1]).stroke(NEUTRAL, 1.4).set("stroke-dasharray", "1.4 3")
 }
 
 /// Formats an order in the usual notation: thirds as fractions, other values as short decimals.

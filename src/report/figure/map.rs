@@ -5,7 +5,7 @@
 
 use super::plot::canvas::{Heading, canvas, text_width};
 use super::plot::style::{INK, NEUTRAL, PAPER, TEXT};
-use super::plot::svg::SvgElement;
+use super::plot::svg::{Rect, SvgElement};
 use crate::verify::rounded;
 
 /// A table of numbers on coloured fields.
@@ -65,7 +65,7 @@ impl Map {
         heading.draw(&mut svg);
         let middle = left + across / 2.0;
         svg.add(&SvgElement::text((middle, head - 28.0), "middle", &self.x_label));
-        let line = |from, to| SvgElement::line(from, to).set("stroke", INK).at("stroke-width", 0.8);
+        let line = |from, to| SvgElement::line(from, to).stroke(INK, 0.8);
         svg.add(&line((left, head - AXIS), (left + across, head - AXIS)));
         for (k, column) in self.columns.iter().enumerate() {
             let x = left + field * (k as f64 + 0.5);
@@ -115,8 +115,7 @@ fn row(name: &str, fields: &[MapField], place: RowPlace, range: ColourRange) -> 
         let value = field.value.filter(|value| value.is_finite());
         let known = value.map(|value| colour(range.share(value)));
         let (fill, ink) = known.unwrap_or_else(|| (PAPER.to_owned(), NEUTRAL));
-        let square =
-            SvgElement::new("rect").at("x", at).at("y", y).at("width", width).at("height", ROW);
+        let square = SvgElement::rect(Rect { x: at, y, w: width, h: ROW });
         group.add(&square.set("fill", &fill).set("stroke", PAPER));
         let middle = (at + width / 2.0, y + ROW - 4.5);
         group.add(&SvgElement::text(middle, "middle", &field.text).set("fill", ink));

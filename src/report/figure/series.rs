@@ -149,7 +149,7 @@ impl<'a> SeriesLine<'a> {
         if self.grey {
             let points: Vec<Pt> = path.iter().map(|(at, _)| *at).collect();
             let line = SvgElement::through("polyline", &points).set("fill", "none");
-            group.add(&line.set("stroke", self.look.colour).at("stroke-width", 1.2));
+            group.add(&line.stroke(self.look.colour, 1.2));
             return group;
         }
         for ends in path.windows(2) {
@@ -168,19 +168,11 @@ impl<'a> SeriesLine<'a> {
     }
 
     fn entry(&self) -> LegendEntry {
-        let mut key = SvgElement::new("g");
-        key.add(
-            &SvgElement::line((0.0, 0.0), (KEY, 0.0))
-                .set("stroke", self.look.colour)
-                .at("stroke-width", 1.6),
-        );
-        let at = (KEY / 2.0, 0.0);
-        key.add(&marker::draw(self.look.shape, Fill::Solid, self.look.colour, at));
-        if self.levels.is_empty() {
-            LegendEntry::new(key, &format!("{} (no data)", self.name))
-        } else {
-            LegendEntry::new(key, self.name)
-        }
+        let Look { colour, shape, .. } = self.look;
+        let line = SvgElement::line((0.0, 0.0), (KEY, 0.0)).stroke(colour, 1.6);
+        let marker = marker::draw(shape, Fill::Solid, colour, (KEY / 2.0, 0.0));
+        let note = if self.levels.is_empty() { " (no data)" } else { "" };
+        LegendEntry::new(SvgElement::group([line, marker]), &format!("{}{note}", self.name))
     }
 }
 
@@ -210,10 +202,9 @@ fn key(mark: Mark) -> SvgElement {
     if mark != Mark::Failed {
         return marker::draw(MarkerShape::Circle, fill(mark), NEUTRAL, (x, y));
     }
-    let mut failed = SvgElement::new("g");
-    failed.add(&marker::arrow_up((x + 7.0, y + 5.0), (x + 7.0, y - 6.0), NEUTRAL));
-    failed.add(&marker::draw(MarkerShape::Circle, Fill::Hollow, NEUTRAL, (x - 5.0, y)));
-    failed
+    let arrow = marker::arrow_up((x + 7.0, y + 5.0), (x + 7.0, y - 6.0), NEUTRAL);
+    let circle = marker::draw(MarkerShape::Circle, Fill::Hollow, NEUTRAL, (x - 5.0, y));
+    SvgElement::group([arrow, circle])
 }
 
 fn fill(mark: Mark) -> Fill {

@@ -112,7 +112,7 @@ impl<'a> Plot<'a> {
 
     fn grid(&self) -> SvgElement {
         let Rect { x, y, .. } = self.frame;
-        let mut grid = SvgElement::new("g").set("stroke", GRID).at("stroke-width", 0.8);
+        let mut grid = SvgElement::new("g").stroke(GRID, 0.8);
         for (at, _) in self.x.labels() {
             let x = x + at * self.frame.w;
             grid.add(&SvgElement::line((x, y), (x, self.frame.bottom())));
@@ -127,9 +127,8 @@ impl<'a> Plot<'a> {
     fn frame_and_ticks(&self) -> SvgElement {
         let Rect { x, y, w, h } = self.frame;
         let (right, bottom) = (self.frame.right(), self.frame.bottom());
-        let mut group =
-            SvgElement::new("g").set("fill", "none").set("stroke", INK).at("stroke-width", 0.8);
-        group.add(&SvgElement::new("rect").at("x", x).at("y", y).at("width", w).at("height", h));
+        let mut group = SvgElement::new("g").set("fill", "none").stroke(INK, 0.8);
+        group.add(&SvgElement::rect(self.frame));
         let length = |tick: &Tick| if tick.label.is_some() { MAJOR } else { MINOR };
         for tick in &self.x.ticks {
             let (x, inwards) = (x + tick.at * w, length(tick));

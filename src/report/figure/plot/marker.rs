@@ -25,29 +25,19 @@ pub(crate) fn draw(shape: MarkerShape, fill: Fill, colour: &str, at: Pt) -> SvgE
         Fill::Solid => colour,
         Fill::Hollow | Fill::Crossed => PAPER,
     };
-    let body =
-        body(shape, at, radius).set("fill", inside).set("stroke", colour).at("stroke-width", 1.2);
+    let body = body(shape, at, radius).set("fill", inside).stroke(colour, 1.2);
     if fill != Fill::Crossed {
         return body;
     }
-    let mut crossed = SvgElement::new("g");
-    crossed.add(&body);
     let arm = 0.55 * CROSSED_RADIUS;
     let (x, y) = (at.0, at.1 + lowered(shape) * CROSSED_RADIUS);
-    for (dx, dy) in [(arm, arm), (arm, -arm)] {
-        crossed.add(
-            &SvgElement::line((x - dx, y - dy), (x + dx, y + dy))
-                .set("stroke", colour)
-                .at("stroke-width", 1.2),
-        );
-    }
-    crossed
+    let stroke = |dy| SvgElement::line((x - arm, y - dy), (x + arm, y + dy)).stroke(colour, 1.2);
+    SvgElement::group([body, stroke(arm), stroke(-arm)])
 }
 
 /// Draws an arrow from `tail` straight up to `tip`, for a value that does not fit in the frame.
 pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
-    let mut arrow =
-        SvgElement::new("g").set("fill", "none").set("stroke", colour).at("stroke-width", 1.3);
+    let mut arrow = SvgElement::new("g").set("fill", "none").stroke(colour, 1.3);
     arrow.add(&SvgElement::line(tail, tip));
     let head = [(tip.0 - 3.2, tip.1 + 4.5), tip, (tip.0 + 3.2, tip.1 + 4.5)];
     arrow.add(&SvgElement::through("polyline", &head));

@@ -91,11 +91,9 @@ impl Label {
             "middle" => at.0 - self.width() / 2.0 + left_of_joint,
             _ => at.0 - self.width() + left_of_joint,
         };
-        let mut label = SvgElement::new("g");
-        label.add(&SvgElement::text((joint, at.1), "end", &self.base));
+        let base = SvgElement::text((joint, at.1), "end", &self.base);
         let exponent = SvgElement::text((joint, at.1 - 5.0), "start", &self.superscript());
-        label.add(&exponent.at("font-size", SUPERSCRIPT));
-        label
+        SvgElement::group([base, exponent.at("font-size", SUPERSCRIPT)])
     }
 
     fn superscript(&self) -> String {

@@ -43,6 +43,17 @@ impl SvgElement {
         Self::new("g").set("transform", &shift)
     }
 
+    /// Creates a group of these elements.
+    pub(crate) fn group<const N: usize>(children: [Self; N]) -> Self {
+        let mut group = Self::new("g");
+        children.iter().for_each(|child| group.add(child));
+        group
+    }
+
+    pub(crate) fn rect(Rect { x, y, w, h }: Rect) -> Self {
+        Self::new("rect").at("x", x).at("y", y).at("width", w).at("height", h)
+    }
+
     pub(crate) fn line(from: Pt, to: Pt) -> Self {
         Self::new("line").at("x1", from.0).at("y1", from.1).at("x2", to.0).at("y2", to.1)
     }
@@ -75,6 +86,11 @@ impl SvgElement {
     pub(crate) fn at(self, name: &str, value: f64) -> Self {
         let value = number(value);
         self.set(name, &value)
+    }
+
+    /// Sets the colour and the width (px) of lines.
+    pub(crate) fn stroke(self, colour: &str, width: f64) -> Self {
+        self.set("stroke", colour).at("stroke-width", width)
     }
 
     pub(crate) fn content(mut self, text: &str) -> Self {
