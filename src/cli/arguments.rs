@@ -151,23 +151,16 @@ pub(super) fn share(text: &str) -> Result<f64, Expected> {
 #[derive(Debug, Args)]
 pub(super) struct ColorArgs {
     /// When to colour verdicts and errors; `auto`: on a terminal, unless NO_COLOR is set
-    #[arg(long, value_enum, value_name = "WHEN", global = true, default_value_t = Color::Auto)]
-    color: Color,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Color {
-    Auto,
-    Always,
-    Never,
+    #[arg(long, value_enum, value_name = "WHEN", global = true, default_value_t = clap::ColorChoice::Auto)]
+    color: clap::ColorChoice,
 }
 
 impl ColorArgs {
     pub(super) fn write_global(&self) {
         match self.color {
-            Color::Auto => ColorChoice::Auto,
-            Color::Always => ColorChoice::Always,
-            Color::Never => ColorChoice::Never,
+            clap::ColorChoice::Auto => ColorChoice::Auto,
+            clap::ColorChoice::Always => ColorChoice::Always,
+            clap::ColorChoice::Never => ColorChoice::Never,
         }
         .write_global();
     }

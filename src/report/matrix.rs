@@ -115,7 +115,15 @@ fn word(case: &CaseOutcome) -> Option<String> {
     if !case.lacks.is_empty() || case.exemption == Some(Exemption::Excepted) {
         return Some(case.result().name().to_owned());
     }
-    let Some(study) = case.convergence() else { return Some(of_other_study(case)) };
+    let Some(study) = case.convergence() else {
+        let word = match case.stability() {
+            Some(study) if study.sought.is_some() => "limit",
+            Some(_) if case.fails() => "unstable",
+            Some(_) => "stable",
+            None => "see report",
+        };
+        return Some(word.to_owned());
+    };
     if study.bounded {
         return Some("bounds".to_owned());
     }
@@ -134,14 +142,5 @@ fn of_verdict(study: &Convergence) -> Option<&'static str> {
         Verdict::Divergent => Some("grows"),
         Verdict::Failed => Some("breaks"),
         Verdict::TooFewLevels => Some("few levels"),
-    }
-}
-
-fn of_other_study(case: &CaseOutcome) -> String {
-    match case.stability() {
-        Some(study) if study.sought.is_some() => "limit".to_owned(),
-        Some(_) if case.fails() => "unstable".to_owned(),
-        Some(_) => "stable".to_owned(),
-        None => "see report".to_owned(),
     }
 }

@@ -4,7 +4,6 @@ use super::series::coincident;
 use super::{Figure, LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::report::names::together;
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
-use std::ops::Range;
 
 /// Maximum number of lines with a separate colour and name that a reader can distinguish.
 const MOST_NAMED: usize = 7;
@@ -42,7 +41,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
     let series = |row: &'_ Ranked| PlotSeries {
         name: String::new(),
         look: methods.iter().position(|method| *method == row.method.name).unwrap_or(0),
-        points: points(row),
+        points: row.method.samples.iter().enumerate().map(|one| point(row, one)).collect(),
     };
     let mut named = coincident(ranking.rows.iter().map(|row| (row, series(row))));
     // Methods on the Pareto front come first; the others follow by rank.
@@ -67,18 +66,13 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
     }
 }
 
-/// Returns the points; only levels in the converging part belong to the asymptotic window.
-fn points(row: &Ranked) -> Vec<PlotPoint> {
-    let levels = row.method.samples.iter().enumerate();
-    levels.map(|(level, one)| point(&row.part.levels, level, one)).collect()
-}
-
-fn point(converging: &Range<usize>, level: usize, one: &Sample) -> PlotPoint {
+/// Returns a point. Only levels in the converging part belong to the asymptotic window.
+fn point(row: &Ranked, (level, one): (usize, &Sample)) -> PlotPoint {
     let mark = if one.failed {
         Mark::Failed
     } else if !one.usable {
         Mark::Crossing
-    } else if one.asymptotic && converging.contains(&level) {
+    } else if one.asymptotic && row.part.levels.contains(&level) {
         Mark::Window
     } else {
         Mark::OutsideWindow

@@ -75,7 +75,19 @@ impl Map {
         let fields = self.rows.iter().flat_map(|(_, fields)| fields);
         let range = ColourRange::new(fields.filter_map(|field| field.value));
         for ((name, fields), y) in self.rows.iter().zip(places) {
-            svg.add(&row(name, fields, RowPlace { left, top: y, field }, range));
+            let mut row = SvgElement::new("g");
+            row.add(&SvgElement::text((left - 8.0, y + ROW - 4.5), "end", name));
+            for (k, MapField { value, text }) in fields.iter().enumerate() {
+                let x = left + field * k as f64;
+                let known = value.filter(|value| value.is_finite());
+                let known = known.map(|value| colour(range.share(value)));
+                let (fill, ink) = known.unwrap_or_else(|| (PAPER.to_owned(), NEUTRAL));
+                let square = SvgElement::rect(Rect { x, y, w: field, h: ROW });
+                row.add(&square.set("fill", &fill).set("stroke", PAPER));
+                let middle = (x + field / 2.0, y + ROW - 4.5);
+                row.add(&SvgElement::text(middle, "middle", text).set("fill", ink));
+            }
+            svg.add(&row);
         }
         svg.add(&SvgElement::text((LEFT, bottom + 18.0), "start", &note));
         svg.render() + "\n"
@@ -96,31 +108,6 @@ impl Map {
         }
         (places, y)
     }
-}
-
-#[derive(Clone, Copy)]
-struct RowPlace {
-    left: f64,
-    top: f64,
-    /// Width of one field (px).
-    field: f64,
-}
-
-fn row(name: &str, fields: &[MapField], place: RowPlace, range: ColourRange) -> SvgElement {
-    let RowPlace { left: x, top: y, field: width } = place;
-    let mut group = SvgElement::new("g");
-    group.add(&SvgElement::text((x - 8.0, y + ROW - 4.5), "end", name));
-    for (k, field) in fields.iter().enumerate() {
-        let at = x + width * k as f64;
-        let value = field.value.filter(|value| value.is_finite());
-        let known = value.map(|value| colour(range.share(value)));
-        let (fill, ink) = known.unwrap_or_else(|| (PAPER.to_owned(), NEUTRAL));
-        let square = SvgElement::rect(Rect { x: at, y, w: width, h: ROW });
-        group.add(&square.set("fill", &fill).set("stroke", PAPER));
-        let middle = (at + width / 2.0, y + ROW - 4.5);
-        group.add(&SvgElement::text(middle, "middle", &field.text).set("fill", ink));
-    }
-    group
 }
 
 /// Minimum ratio of the largest to the smallest value for which the colour scale is logarithmic.

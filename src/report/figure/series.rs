@@ -77,36 +77,25 @@ pub struct PlotSeries {
     pub points: Vec<PlotPoint>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct PlotLevel {
-    x: f64,
-    error: Option<f64>,
-    /// Mark of the level: [`Mark::Failed`] if and only if there is no error.
-    mark: Mark,
-}
-
-/// Returns the levels that can be drawn, in ascending order of `x`.
-fn levels(points: &[PlotPoint]) -> Vec<PlotLevel> {
-    let mut levels: Vec<PlotLevel> = points.iter().filter_map(level).collect();
+/// Returns the levels that can be drawn, in ascending order of `x`. Those without an error have the
+/// mark [`Mark::Failed`].
+fn levels(points: &[PlotPoint]) -> Vec<PlotPoint> {
+    let level = |&PlotPoint { x, error, mark }: &PlotPoint| {
+        let failed = mark == Mark::Failed || !error.is_finite();
+        let drawable = x.is_finite() && x > 0.0 && (failed || error > 0.0);
+        let mark = if failed { Mark::Failed } else { mark };
+        drawable.then_some(PlotPoint { x, error, mark })
+    };
+    let mut levels: Vec<PlotPoint> = points.iter().filter_map(level).collect();
     levels.sort_by(|a, b| a.x.total_cmp(&b.x));
     levels
-}
-
-fn level(&PlotPoint { x, error, mark }: &PlotPoint) -> Option<PlotLevel> {
-    let failed = mark == Mark::Failed || !error.is_finite();
-    let drawable = x.is_finite() && x > 0.0 && (failed || error > 0.0);
-    drawable.then_some(if failed {
-        PlotLevel { x, error: None, mark: Mark::Failed }
-    } else {
-        PlotLevel { x, error: Some(error), mark }
-    })
 }
 
 pub(super) struct SeriesLine<'a> {
     name: &'a str,
     look: Look,
     grey: bool,
-    levels: Vec<PlotLevel>,
+    levels: Vec<PlotPoint>,
 }
 
 impl<'a> SeriesLine<'a> {
@@ -134,12 +123,12 @@ impl<'a> SeriesLine<'a> {
     }
 
     pub(super) fn errors(&self) -> impl Iterator<Item = f64> {
-        self.levels.iter().filter_map(|level| level.error)
+        self.levels.iter().filter(|level| level.mark != Mark::Failed).map(|level| level.error)
     }
 
     fn marked_path(&self, plot: &Plot) -> Vec<(Pt, Mark)> {
-        let levels = self.levels.iter();
-        levels.filter_map(|l| Some((plot.place((l.x, l.error?)), l.mark))).collect()
+        let drawn = self.levels.iter().filter(|level| level.mark != Mark::Failed);
+        drawn.map(|level| (plot.place((level.x, level.error)), level.mark)).collect()
     }
 
     pub(super) fn draw(&self, plot: &Plot) -> SvgElement {
@@ -285,7 +274,8 @@ mod tests {
         #[case] drawn: Option<(Option<f64>, Mark)>,
     ) {
         let levels = levels(&[PlotPoint { x, error, mark }]);
-        assert_eq!(levels.first().map(|l| (l.error, l.mark)), drawn);
+        let error = |level: &PlotPoint| (level.mark != Mark::Failed).then_some(level.error);
+        assert_eq!(levels.first().map(|level| (error(level), level.mark)), drawn);
     }
 
     #[test]

@@ -28,15 +28,12 @@ pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     drawn.iter().enumerate().map(figure).collect()
 }
 
-/// Returns the index of a case in its suite, which gives its colour in all figures.
-fn look(outcome: &SuiteOutcome, case: &str) -> usize {
-    outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
-}
-
 fn series(outcome: &SuiteOutcome, name: &str, study: &Convergence) -> PlotSeries {
     let levels = study.levels.iter().enumerate();
     let points = levels.map(|(i, level)| point(study, i, level)).collect();
-    PlotSeries { name: name.to_owned(), look: look(outcome, name), points }
+    // The index of a case in its suite gives its colour in all figures.
+    let look = outcome.cases.iter().position(|known| known.case == name).unwrap_or(0);
+    PlotSeries { name: name.to_owned(), look, points }
 }
 
 /// Returns the legend text of a curve: its cases, and their orders or verdicts.

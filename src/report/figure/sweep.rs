@@ -6,24 +6,14 @@ use crate::verify::{
     CaseOutcome, RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome,
 };
 
-/// Returns the studies that do not search for a stability limit, with the names of their cases.
-fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
-    outcome.results(CaseOutcome::stability).filter(|(_, study)| study.sought.is_none()).collect()
-}
-
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
-    let studies = studies(outcome);
+    let studies = outcome.results(CaseOutcome::stability);
+    let studies: Vec<_> = studies.filter(|(_, study)| study.sought.is_none()).collect();
     let Some((_, first)) = studies.first() else { return Vec::new() };
     if first.rows.len() < 2 && studies.len() < 2 {
         return Vec::new();
     }
     first.figures.iter().map(|figure| map(outcome, &studies, *figure)).collect()
-}
-
-/// Returns the reported quantity of a run; NaN if the run failed.
-fn value(row: &StabilityRow, figure: RunFigure) -> f64 {
-    let ended = row.trial.as_ref().filter(|trial| trial.verdict != Stability::Failed);
-    ended.map_or(f64::NAN, |trial| figure.of(trial))
 }
 
 /// Formats a value with three digits, which fit into a map field.
@@ -40,7 +30,8 @@ fn short(value: f64) -> String {
 
 fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunFigure) -> Figure {
     let field = |row: &StabilityRow| {
-        let value = value(row, figure);
+        let ended = row.trial.as_ref().filter(|trial| trial.verdict != Stability::Failed);
+        let value = ended.map_or(f64::NAN, |trial| figure.of(trial));
         MapField { value: Some(value), text: short(value) }
     };
     let title = format!("{}: {}", outcome.title, figure.head());

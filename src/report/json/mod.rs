@@ -5,7 +5,7 @@ use crate::report::columns::cost::json_columns as cost_columns;
 use crate::report::columns::timed_level::{json_columns as timed_columns, rows, timing};
 use crate::report::columns::{interval, json_objects, number};
 use crate::report::text::diagnosis::paragraph;
-use crate::verify::{CaseOutcome, Cause, ChangedRun, Diagnosis, Machine, Ranking, TimedSuite};
+use crate::verify::{CaseOutcome, Cause, ChangedRun, Diagnosis, Ranking, TimedSuite};
 use serde_json::{Value, json};
 
 /// Converts rankings to JSON, one entry for each problem. `work` is the name of the unit of work.
@@ -62,29 +62,25 @@ pub fn timed_json(timed: &[TimedSuite]) -> String {
 }
 
 fn suite(timed: &TimedSuite) -> Value {
+    let machine = &timed.machine;
+    let case = |(index, case): (usize, &CaseOutcome)| {
+        json!({
+            "case": case.case,
+            "levels": json_objects(&timed_columns(), rows(timed, index)),
+        })
+    };
     let cases = timed.outcome.cases.iter().enumerate();
     let mut cost = rankings(&timed.by_seconds(), "seconds");
     cost.extend(rankings(&timed.by_transfers(), "transfers"));
     json!({
         "suite": timed.outcome.suite,
-        "machine": machine(&timed.machine),
-        "cases": cases.map(|(index, one)| case(timed, index, one)).collect::<Vec<_>>(),
+        "machine": {
+            "cores": machine.cores,
+            "load": machine.load.map(|load| load.map(number)),
+            "waited": machine.waited.map(number),
+            "fixed_loop": machine.fixed_loop.map(timing),
+        },
+        "cases": cases.map(case).collect::<Vec<_>>(),
         "cost": cost,
-    })
-}
-
-fn machine(machine: &Machine) -> Value {
-    json!({
-        "cores": machine.cores,
-        "load": machine.load.map(|load| load.map(number)),
-        "waited": machine.waited.map(number),
-        "fixed_loop": machine.fixed_loop.map(timing),
-    })
-}
-
-fn case(timed: &TimedSuite, index: usize, case: &CaseOutcome) -> Value {
-    json!({
-        "case": case.case,
-        "levels": json_objects(&timed_columns(), rows(timed, index)),
     })
 }

@@ -38,10 +38,9 @@ fn first_crossings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let first = |study: &Convergence| {
         study.levels.iter().position(|level| crossings(level).unwrap_or(0) > 0)
     };
-    let is_listed = |(_, study): &&NamedStudy<'_>| {
+    let listed = studies_with(studies, |study| {
         study.levels.len() > 1 && study.levels.iter().any(|level| crossings(level).is_some())
-    };
-    let listed: Vec<NamedStudy<'_>> = studies.iter().filter(is_listed).copied().collect();
+    });
     if listed.iter().all(|(_, study)| first(study).is_none()) {
         return;
     }
@@ -133,17 +132,22 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_level(lines, "order between neighbouring levels", studies, &level::order(), true);
 }
 
+fn studies_with<'a>(
+    studies: &[NamedStudy<'a>],
+    condition: impl Fn(&Convergence) -> bool,
+) -> Vec<NamedStudy<'a>> {
+    studies.iter().filter(|(_, study)| condition(study)).copied().collect()
+}
+
 fn spreads(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
-    let is_repeated =
-        |(_, study): &&NamedStudy<'_>| study.levels.iter().any(|level| level.spread.is_some());
-    let repeated: Vec<NamedStudy<'_>> = studies.iter().filter(is_repeated).copied().collect();
+    let repeated =
+        studies_with(studies, |study| study.levels.iter().any(|one| one.spread.is_some()));
     let heading = "spread between runs, in the norm of the error";
     by_level(lines, heading, &repeated, &level::spread(), false);
 }
 
 fn observed_velocities(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
-    let is_observed = |(_, study): &&NamedStudy<'_>| study.history().is_some();
-    let observed: Vec<NamedStudy<'_>> = studies.iter().filter(is_observed).copied().collect();
+    let observed = studies_with(studies, |study| study.history().is_some());
     let Some(place) = observed.iter().find_map(|(_, study)| study.place()) else { return };
     let heading = format!(
         "rms error over time of the velocity near X = {place} m, divided by its largest exact value"
@@ -222,8 +226,7 @@ fn has_levels(studies: &[NamedStudy<'_>]) -> bool {
 
 fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let sums = distinct(studies.iter().flat_map(|(_, study)| study.drifts.iter().copied()));
-    let asked: Vec<NamedStudy<'_>> =
-        studies.iter().filter(|(_, study)| !study.drifts.is_empty()).copied().collect();
+    let asked = studies_with(studies, |study| !study.drifts.is_empty());
     let levels = if has_levels(&asked) { ", all levels" } else { "" };
     let heading = format!(
         "conservation{levels}: largest change since t = 0, divided by the sum of magnitudes over \
@@ -233,8 +236,7 @@ fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
 }
 
 fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
-    let rated: Vec<NamedStudy<'_>> =
-        studies.iter().filter(|(_, study)| study.rated).copied().collect();
+    let rated = studies_with(studies, |study| study.rated);
     let heading = "rate of the energy on the finest level, d ln E/dt (1/s)";
     by_case(lines, heading, &rated, level::energy_rate());
 }
@@ -242,19 +244,11 @@ fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
 /// Adds the table of extrapolated displacements, with their true errors if these are known.
 fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let Some(place) = studies.iter().find_map(|(_, study)| study.place()) else { return };
-    let limit = |(name, study): &NamedStudy<'_>| {
-        Some(ObservedLimit {
-            case: (*name).to_owned(),
-            result: study.observed_limit?,
-            exact: study.observed_exact(),
-            is_covered: study.limit_is_covered(),
-        })
-    };
-    let rows: Vec<ObservedLimit> = studies.iter().filter_map(limit).collect();
+    let rows = studies_with(studies, |study| study.observed_limit.is_some());
     if rows.is_empty() {
         return;
     }
-    let answered = rows.iter().filter(|row| row.result.is_ok()).count();
+    let answered = rows.iter().filter(|row| limit(row).is_some()).count();
     let heading = format!(
         "u at X = {place} m at the end, extrapolated from the four finest levels to zero spacing; \
          {answered} of {} cases have an estimate",
@@ -277,20 +271,17 @@ fn limit_shown(estimate: &LimitEstimate) -> String {
     format!("{value:.*e}", (digits + 1.0).clamp(1.0, 15.0) as usize)
 }
 
-struct ObservedLimit {
-    case: String,
-    result: Result<LimitEstimate, EstimateRefusal>,
-    exact: Option<f64>,
-    is_covered: Option<bool>,
+fn limit((_, study): &NamedStudy<'_>) -> Option<LimitEstimate> {
+    study.observed_limit?.ok()
 }
 
-fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
-    type LimitColumn = TableColumn<'static, ObservedLimit>;
+fn limit_columns<'a>() -> [TableColumn<'a, NamedStudy<'a>>; 8] {
+    type LimitColumn<'a> = TableColumn<'a, NamedStudy<'a>>;
     let of = |heading, about, text: fn(&LimitEstimate) -> String| {
-        LimitColumn::text(heading, about, move |row| row.result.as_ref().ok().map(text))
+        LimitColumn::text(heading, about, move |row| limit(row).as_ref().map(text))
     };
     [
-        LimitColumn::text("case", "case", |row| row.case.clone()).flush_left(),
+        LimitColumn::text("case", "case", |(name, _)| *name).flush_left(),
         of("order", "order of the finest three values", |estimate| {
             decimals(2)(estimate.order.value)
         }),
@@ -302,16 +293,16 @@ fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
             short(estimate.limit.half_width())
         }),
         LimitColumn::text("true error", "distance of the limit from the exact value (m)", |row| {
-            let (exact, estimate) = (row.exact?, row.result.ok()?);
+            let (exact, estimate) = (row.1.observed_exact()?, limit(row)?);
             Some(short((estimate.limit.value - exact).abs()))
         }),
         LimitColumn::text(
             "exact u inside",
             "whether the interval contains the exact value",
-            |row| row.is_covered.map(|covered| if covered { "yes" } else { "no" }),
+            |(_, study)| study.limit_is_covered().map(|covered| if covered { "yes" } else { "no" }),
         ),
-        LimitColumn::text("reason for no estimate", "why there is no limit", |row| {
-            row.result.err().map(EstimateRefusal::name)
+        LimitColumn::text("reason for no estimate", "why there is no limit", |(_, study)| {
+            study.observed_limit?.err().map(EstimateRefusal::name)
         })
         .flush_left(),
     ]

@@ -44,11 +44,7 @@ fn visits(profile: &Profile) -> String {
 /// Lists the memory per particle or node: `168 B: X 16, x 16, ...`, shorter columns last.
 fn memory(profile: &Profile, holder: Holder) -> String {
     let holders = profile.holders(holder);
-    let (whole, partial): (Vec<&ColumnSize>, Vec<&ColumnSize>) = profile
-        .columns
-        .iter()
-        .filter(|column| column.holder == holder)
-        .partition(|column| column.entries == holders);
+    let [whole, partial] = columns_of(profile, holder);
     let mut texts = vec![format!("{} B", whole.iter().map(|column| column.bytes).sum::<usize>())];
     let listed: Vec<String> =
         whole.iter().map(|column| format!("{} {}", column.name, column.bytes)).collect();
@@ -129,15 +125,13 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
 
 /// Returns the bytes of full columns, and the bytes of the other columns.
 fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
-    let whole = profile.holders(holder);
-    let of_holder = || profile.columns.iter().filter(|column| column.holder == holder);
-    let sum = |is_whole: bool| {
-        of_holder()
-            .filter(|column| (column.entries == whole) == is_whole)
-            .map(|column| column.bytes)
-            .sum()
-    };
-    [sum(true), sum(false)]
+    columns_of(profile, holder).map(|columns| columns.iter().map(|column| column.bytes).sum())
+}
+
+/// Returns the columns with an entry for each particle or node, and the other columns.
+fn columns_of(profile: &Profile, holder: Holder) -> [Vec<&ColumnSize>; 2] {
+    let columns = profile.columns.iter().filter(|column| column.holder == holder);
+    columns.partition::<Vec<_>, _>(|column| column.entries == profile.holders(holder)).into()
 }
 
 fn columns(lines: &mut Vec<String>, cases: &[&CaseOutcome]) {

@@ -8,14 +8,10 @@ use crate::report::figure::{Map, MapField};
 use crate::subject::{EnergyBalance, LedgerStage};
 use crate::verify::{CaseOutcome, StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
-/// Returns the studies of a suite that search for a stability limit, with the names of their cases.
-fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
-    outcome.results(CaseOutcome::stability).filter(|(_, study)| study.sought.is_some()).collect()
-}
-
 /// Returns the map of all stability limits of a suite; `None` if no study searches for one.
 pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
-    let studies = seeking(outcome);
+    let studies = outcome.results(CaseOutcome::stability);
+    let studies: Vec<_> = studies.filter(|(_, study)| study.sought.is_some()).collect();
     let (_, first) = studies.first()?;
     let sought = first.sought.as_deref().unwrap_or_default();
     let field = |row: &StabilityRow| MapField {
