@@ -178,54 +178,7 @@ mod tests {
     use super::super::{STEPS, expected, finding};
     use super::*;
     use crate::testing::doctor::scene::Kind;
-    use approx::assert_relative_eq;
     use rstest::rstest;
-
-    /// Returns the axial and lateral Kirchhoff stress (Pa) after the logarithmic compression `e`.
-    fn cone(scene: &BoxScene, e: f64) -> (f64, f64) {
-        let (lambda, mu) = scene.lame();
-        let (bulk, dilation) = (lambda + 2.0 * mu / 3.0, FRICTION * scene.dilation);
-        let shear = 2.0 * mu / 3.0_f64.sqrt();
-        let (rate, strength) = (shear - FRICTION * bulk, scene.strength);
-        let flow = rate / (mu + bulk * FRICTION * dilation) * (e - strength / rate);
-        let (mean, root) = (-bulk * e - bulk * dilation * flow, shear * e - mu * flow);
-        (mean - 2.0 / 3.0_f64.sqrt() * root, mean + root / 3.0_f64.sqrt())
-    }
-
-    /// Returns the stresses of [`cone`] for a Mohr-Coulomb soil, whose edges share one multiplier.
-    fn pyramid(scene: &BoxScene, e: f64) -> (f64, f64) {
-        let (lambda, mu) = scene.lame();
-        let modulus = lambda + 2.0 * mu;
-        let [(sin, cos), (dilates, _)] =
-            [1.0, scene.dilation].map(|share| libm::sincos((FRICTION_ANGLE * share).to_radians()));
-        let rate = (1.0 - sin) * modulus - (1.0 + sin) * lambda;
-        let volume = 4.0 * lambda * dilates;
-        let lateral_flow = volume + 2.0 * mu * (1.0 + dilates);
-        let axial_flow = volume - 4.0 * mu * (1.0 - dilates);
-        let beyond = e - 2.0 * scene.strength * cos / rate;
-        let flow = rate / ((1.0 + sin) * lateral_flow - (1.0 - sin) * axial_flow) * beyond;
-        (-modulus * e - flow * axial_flow, -lambda * e - flow * lateral_flow)
-    }
-
-    #[rstest]
-    #[case("drucker_prager", cone)]
-    #[case("mohr_coulomb", pyramid)]
-    fn expected_stress_matches_the_closed_form(
-        #[case] law: &'static str,
-        #[case] closed_form: fn(&BoxScene, f64) -> (f64, f64),
-        #[values(1, STEPS)] steps: u64,
-        #[values(0.0, 1.0 / 3.0, 1.0)] dilation: f64,
-        #[values(1, 2)] dimension: usize,
-    ) {
-        let scene = BoxScene { dilation, ..soil((dimension, law), steps) };
-        let stress = expected(&scene).unwrap_or_else(|_| panic!("the built-in solver fails"));
-        let j = 1.0 + COMPRESSION[0][0];
-        let (axial, lateral) = closed_form(&scene, -libm::log(j));
-        assert_relative_eq!(j * stress[0], axial, max_relative = 1e-9);
-        if dimension > 1 {
-            assert_relative_eq!(j * stress[3], lateral, max_relative = 1e-9);
-        }
-    }
 
     fn soil(kind: Kind, steps: u64) -> BoxScene {
         SOIL.paths[1].steps(steps).scene(kind)
