@@ -27,13 +27,10 @@ const NEAR: f64 = 0.1;
 type Question = (f64, [f64; 3]);
 
 /// Recorded requests.
-#[derive(Clone, Default)]
-struct Questions(Arc<Mutex<Vec<Question>>>);
+type Questions = Arc<Mutex<Vec<Question>>>;
 
-impl Questions {
-    fn lock(&self) -> MutexGuard<'_, Vec<Question>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+fn locked(asked: &Questions) -> MutexGuard<'_, Vec<Question>> {
+    asked.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A force along the first axis as a function of position (m) and time (s).
@@ -49,7 +46,7 @@ struct AskedForce {
 impl BodyForceField for AskedForce {
     fn at(&self, _: usize, label: &[f64], t: f64) -> [f64; 3] {
         let place = std::array::from_fn(|i| label.get(i).copied().unwrap_or_default());
-        self.asked.lock().push((t, place));
+        locked(&self.asked).push((t, place));
         [(self.force)(place[0], t), 0.0, 0.0]
     }
 }
@@ -82,7 +79,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         (Err(other), _) => return Err(other),
         (Ok(course), None) => course,
         (Ok(_), Some(finding)) => {
-            let measured = format!("{} values were requested", asked.lock().len());
+            let measured = format!("{} values were requested", locked(&asked).len());
             return Ok(Examined::new(measured, Some(finding)));
         }
     };
@@ -92,7 +89,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         let course = run(patient, &resting, &Questions::default(), true, |x, _| x / H)?;
         found = of_points(&course, resting.dt / H);
     }
-    let (count, last) = (asked.lock().len(), course.last());
+    let (count, last) = (locked(&asked).len(), course.last());
     let gained = course.mean(velocity, last)[0] - VELOCITY[0];
     let [gained, wanted] = [gained, integral(course.times[last])].map(shown);
     let measured = format!(
@@ -132,7 +129,7 @@ fn run(
 
 /// Returns a finding if the solver requests forces for times outside the run.
 fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
-    let (asked, end) = (asked.lock(), scene.end());
+    let (asked, end) = (locked(asked), scene.end());
     let times = asked.iter().map(|(t, _)| *t);
     let first = times.clone().fold(f64::INFINITY, f64::min);
     let last = times.fold(f64::NEG_INFINITY, f64::max);
@@ -150,7 +147,7 @@ fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
 
 /// Returns a finding if the solver requests forces at current instead of reference positions.
 fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
-    let asked = asked.lock();
+    let asked = locked(asked);
     if asked.is_empty() {
         return Some(SolverFinding::defect(
             "force-not-asked",
@@ -198,7 +195,7 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     if is_shifted && is_scheme && (-0.5 - NEAR..=NEAR).contains(&shift) {
         return None;
     }
-    let mut at: Vec<f64> = asked.lock().iter().map(|(t, _)| *t).collect();
+    let mut at: Vec<f64> = locked(asked).iter().map(|(t, _)| *t).collect();
     at.sort_by(f64::total_cmp);
     at.dedup();
     let count = at.len();

@@ -46,11 +46,9 @@ const KEPT: f64 = 0.004;
 
 const STEPS: u64 = 5;
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum SlowMotion {
-    Rotation,
-    Stretch,
-}
+/// Velocity gradients (1/s).
+const ROTATION: [[f64; 3]; 3] = [[0.0, -RATE, 0.0], [RATE, 0.0, 0.0], [0.0; 3]];
+const STRETCH: [[f64; 3]; 3] = [[RATE, 0.0, 0.0], [0.0, RATE, 0.0], [0.0, 0.0, RATE]];
 
 /// Losses of the moment M in the first step and per step from the third on (affine matrices that
 /// start at zero need two), in units of `d h2 M/I` with the moment of inertia per mass I.
@@ -63,9 +61,9 @@ struct Losses {
 }
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let plain = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| scene(kind, SlowMotion::Stretch))?;
+    let plain = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| scene(kind, &STRETCH))?;
     let kind = (plain.dimension, plain.law);
-    let turning = (kind.0 > 1).then(|| scene(kind, SlowMotion::Rotation));
+    let turning = (kind.0 > 1).then(|| scene(kind, &ROTATION));
     let small = plain.scaled(0.125, 1.0, 1.0);
     let scenes: Vec<BoxScene> =
         std::iter::once(plain.clone()).chain(turning).chain([small]).collect();
@@ -100,7 +98,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 
 /// Reveals ignored initial velocities, confused vectors of points, and velocities that grow.
 fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| scene(kind, SlowMotion::Stretch))?;
+    let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| scene(kind, &STRETCH))?;
     let course = patient.run(&scene)?;
     let speed = |k: usize| course.farthest(velocity, k, [0.0; 3]);
     let (start, first, end) = (speed(0), speed(1), speed(course.last()));
@@ -152,14 +150,9 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     Ok(Examined::new(measured, None))
 }
 
-fn scene(kind: Kind, motion: SlowMotion) -> BoxScene {
+fn scene(kind: Kind, gradient: &[[f64; 3]; 3]) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.271, 0.391, 0.141], 4.0, 3.0);
-    scene.velocity = scene.linear(|i, j| match (motion, i, j) {
-        (SlowMotion::Rotation, 0, 1) => -RATE,
-        (SlowMotion::Rotation, 1, 0) => RATE,
-        (SlowMotion::Stretch, ..) if i == j => RATE,
-        _ => 0.0,
-    });
+    scene.velocity = scene.linear(|i, j| gradient[i][j]);
     BoxScene { steps: STEPS, dt: 0.02, ..scene.soft() }
 }
 
