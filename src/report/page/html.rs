@@ -110,11 +110,4 @@ mod tests {
         let link = Html::tag("a", &[("href", "#\" onclick=\"alert(1)")], "x<y");
         assert_eq!(link.into_string(), "<a href=\"#&quot; onclick=&quot;alert(1)\">x&lt;y</a>");
     }
-
-    #[test]
-    fn blocks_keep_their_parts() {
-        let parts = [Html::tag("li", &[], "1"), Html::tag("li", &[], "2")];
-        let list = Html::block("ul", &[("class", "x")], &parts);
-        assert_eq!(list.into_string(), "<ul class=\"x\">\n<li>1</li>\n<li>2</li>\n</ul>");
-    }
 }

@@ -141,22 +141,6 @@ fn the_page_names_the_run() {
     assert!(commit().is_none_or(|commit| page.contains(&format!(", commit {commit}. "))));
 }
 
-#[test]
-fn the_finding_comes_first() {
-    let sound = of(&[outcome("a", "x", &[])], "");
-    assert!(sound.contains("<p class=\"ok finding\">1 suite, 2 cases: 2 pass, 0 FAIL.</p>"));
-    let failed = of(&[outcome("a", "x", &["too low"])], "");
-    let finding = "<p class=\"bad finding\">1 suite, 2 cases: 2 FAIL.</p>";
-    let place = failed.find(finding).expect("the finding");
-    assert!(place < failed.find("<nav").expect("the list of suites"));
-    assert!(failed.contains("a::firstx</a>: too lowx</li>"));
-    let none = page(&[], &RunFacts { refused: 2, ..RunFacts::default() });
-    assert!(
-        none.contains("<p class=\"bad finding\">0 suites, 0 cases. 2 files could not be used.</p>")
-    );
-    tags(&none);
-}
-
 /// The page loads nothing from a network, and its content security policy forbids it.
 #[test]
 fn the_page_loads_no_resources() {

@@ -209,15 +209,4 @@ mod tests {
         assert_eq!(text("particle memory"), "8 B: v 8; layer 8 at 4 of 20");
         assert_eq!(text("node memory"), "8 B: mass 8");
     }
-
-    #[test]
-    fn only_changed_values_are_differences() {
-        let with = sample();
-        assert!(difference(&with, &with).is_empty());
-        let without = Profile { effects: vec!["gravity"], ..sample() };
-        let found = difference(&with, &without);
-        let expected =
-            vec![("effects", "gravity, traction".to_owned()), ("  becomes", "gravity".to_owned())];
-        assert_eq!(found, expected);
-    }
 }

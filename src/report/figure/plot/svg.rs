@@ -158,15 +158,4 @@ mod tests {
     fn escaping(#[case] text: &str, #[case] escaped: &str) {
         assert_eq!(escape(text), escaped);
     }
-
-    #[test]
-    fn children_stay_inside_their_parent() {
-        let mut group = SvgElement::group_at((1.0, 2.0));
-        group.add(&SvgElement::line((0.0, 0.0), (1.0, 0.0)));
-        assert_eq!(
-            group.render(),
-            "<g transform=\"translate(1.00 2.00)\">\n\
-             <line x1=\"0.00\" y1=\"0.00\" x2=\"1.00\" y2=\"0.00\"/></g>"
-        );
-    }
 }

@@ -26,7 +26,6 @@ const NEAR: f64 = 0.1;
 /// A request: its time (s) and reference position (m).
 type Question = (f64, [f64; 3]);
 
-/// Recorded requests.
 type Questions = Arc<Mutex<Vec<Question>>>;
 
 fn locked(asked: &Questions) -> MutexGuard<'_, Vec<Question>> {
@@ -127,7 +126,6 @@ fn run(
     complete(patient.run_problem(scene, problem)?)
 }
 
-/// Returns a finding if the solver requests forces for times outside the run.
 fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     let (asked, end) = (locked(asked), scene.end());
     let times = asked.iter().map(|(t, _)| *t);
@@ -145,7 +143,6 @@ fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     (!(asked.is_empty() || is_inside)).then_some(finding)
 }
 
-/// Returns a finding if the solver requests forces at current instead of reference positions.
 fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     let asked = locked(asked);
     if asked.is_empty() {
@@ -177,7 +174,6 @@ fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     (outside > 0).then_some(finding)
 }
 
-/// Returns a finding if forces have a wrong factor or are evaluated at wrong times.
 fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let (last, dt) = (course.last(), course.problem.dt);
     let end = course.times[last];

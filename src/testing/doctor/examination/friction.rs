@@ -23,7 +23,6 @@ pub(super) const CONTACT: Examination = Examination {
     examine: examine_contact,
 };
 
-/// Coefficient of friction.
 const MU: f64 = 0.3;
 /// Gravity (m/s2) that presses the body on the wall.
 const GRAVITY: f64 = 1e-3;

@@ -20,7 +20,6 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Displacement gradient at the end of the run.
 const GRADIENT: [[f64; 3]; 3] = [[0.25, 0.45, 0.1], [-0.15, -0.1, 0.2], [0.05, -0.1, 0.15]];
 
 /// Stretch rate (1/s) in [`volumes`].
@@ -112,7 +111,6 @@ struct StressError {
     factor: f64,
     /// Largest error of a component, relative to the largest component of the law.
     error: f64,
-    /// Error of the stress divided by `factor`.
     remainder: f64,
 }
 
@@ -123,7 +121,6 @@ fn stress_error(column: &[f64], law: &[f64]) -> StressError {
     StressError { factor, error: error(column, law), remainder: error(&scaled, law) }
 }
 
-/// Compares the column `stress` in state `k` with the law.
 fn stress_errors(course: &Course, scene: &BoxScene, k: usize) -> Result<StressError, Hindrance> {
     let state = &course.states[k];
     let f = inside(course, scene, &state.deformation_gradient);

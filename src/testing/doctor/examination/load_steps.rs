@@ -20,7 +20,6 @@ const LAWS: [&str; 2] = ["neo_hookean", "hencky"];
 
 const CELLS: f64 = 8.0;
 
-/// Strain of the column at its foot.
 const STRAIN: f64 = 0.004;
 
 /// Maximum error over the largest displacement. Linear functions have an error of `(h/L)^2/4`.

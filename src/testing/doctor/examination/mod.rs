@@ -66,7 +66,6 @@ mod tests {
     use crate::testing::doctor::patient::{Hindrance, Patient};
     use rstest::rstest;
 
-    /// Supports everything in one number of dimensions.
     struct Able(usize);
 
     impl SolverFactory for Able {

@@ -64,7 +64,6 @@ fn wall_velocity(scene: &BoxScene, (axis, high): (usize, bool), i: usize) -> f64
     sign * SHARES[(i + scene.dimension - axis) % scene.dimension] * scene.wave_speed()
 }
 
-/// Creates a bar along `axis` with a wall at its low or high end that moves inwards.
 fn pushed(kind: Kind, axis: usize, high: bool) -> BoxScene {
     let mut scene = bar(kind, axis, "fixed");
     scene.faces.clear();

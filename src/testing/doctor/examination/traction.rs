@@ -65,7 +65,6 @@ fn traction(scene: &BoxScene, axis: usize, i: usize) -> f64 {
     scene.young * SHARES[(i + scene.dimension - axis) % scene.dimension]
 }
 
-/// Creates a body with a traction on the low or the high face of `axis`.
 fn loaded(kind: Kind, axis: usize, high: bool) -> BoxScene {
     let scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], CELLS, 2.0);
     let mut scene = BoxScene { young: 3.1, ..scene }.with_waves(3.0 * CELLS, 48);

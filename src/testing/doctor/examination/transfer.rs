@@ -261,7 +261,6 @@ fn cause(
     ))
 }
 
-/// Returns a remark if the transfer averages in the first step only.
 fn first_step(stretch: Losses, rotation: Losses) -> Option<SolverFinding> {
     let first = stretch.first.max(rotation.first);
     let loss = shown(first);

@@ -158,13 +158,11 @@ const FLUID: Laws = Laws {
     },
 };
 
-/// Changes the strain along the first axis.
 fn strain(scene: &mut BoxScene, change: fn(f64) -> f64) {
     let along = &mut scene.velocity.gradient[0][0];
     *along = change(*along);
 }
 
-/// Returns the strain of the inverse stretch.
 fn inverse(strain: f64) -> f64 {
     1.0 / (1.0 + strain) - 1.0
 }

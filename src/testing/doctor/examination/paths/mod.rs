@@ -22,7 +22,6 @@ pub(super) use soils::SOILS;
 use super::laws::deformation_gradient;
 use super::stress::{inside, require_whole_body};
 
-/// Examinations that must have no defects before a path is examined.
 const AFTER: &[&str] = &["translation", "force", "transfer", "stress", "laws"];
 
 /// Young's modulus (Pa) of all paths.
@@ -44,10 +43,8 @@ const NEAR: f64 = 0.025;
 /// much that the smaller one is at most this fraction of the larger one.
 const STEP_RATIO: f64 = 0.3;
 
-/// A displacement gradient.
 type StrainGradient = [[f64; 3]; 3];
 
-/// Uniaxial compression.
 const COMPRESSION: StrainGradient = [[-0.000_75, 0.0, 0.0], [0.0; 3], [0.0; 3]];
 
 /// Shear with different principal stresses, on a face of the Mohr-Coulomb pyramid.
@@ -59,14 +56,11 @@ type LawCause = (&'static str, &'static str, &'static str);
 /// A mistake: the change of the scene and the factor that give the wrong stress, and the finding.
 type LawMistake = (fn(&mut BoxScene), f64, LawCause);
 
-/// A strain path.
 #[derive(Clone, Copy)]
 struct StrainPath {
     name: &'static str,
-    /// Displacement gradient at the end.
     gradient: StrainGradient,
     steps: u64,
-    /// Sets parameters of the law.
     set: fn(&mut BoxScene),
     /// Whether the path is examined in every number of dimensions.
     everywhere: bool,
@@ -100,7 +94,6 @@ impl StrainPath {
     }
 }
 
-/// Laws that are examined on the same paths.
 struct Laws {
     names: &'static [&'static str],
     /// Numbers of dimensions. All paths run in the first one that the solver supports.
@@ -114,11 +107,9 @@ struct Laws {
     otherwise: fn(&Leg, &[Leg], bool) -> LawCause,
 }
 
-/// A path of a law, and the stress at its end.
 #[derive(Clone)]
 struct Leg {
     path: StrainPath,
-    /// The scene, with the measured motion.
     scene: BoxScene,
     /// Measured stress (Pa).
     stress: Vec<f64>,

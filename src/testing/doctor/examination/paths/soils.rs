@@ -184,7 +184,6 @@ mod tests {
         SOIL.paths[1].steps(steps).scene(kind)
     }
 
-    /// Creates a compression whose stress is that of the soil after `change`.
     fn compression(law: &'static str, change: fn(&mut BoxScene)) -> Leg {
         let scene = soil((2, law), STEPS);
         let mut changed = scene.clone();

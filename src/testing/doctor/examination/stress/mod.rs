@@ -92,7 +92,6 @@ fn measure(
     Ok((course, measured))
 }
 
-/// Examines one scene. Also returns the share of momentum transferred by averaging.
 fn examine_scene(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -180,7 +179,6 @@ fn describe(scene: &BoxScene, measured: &MeasuredModuli) -> String {
     )
 }
 
-/// Returns a finding if the total momentum changes, although internal forces conserve it.
 fn lost_momentum(
     patient: &Patient<'_>,
     course: &Course,

@@ -222,7 +222,6 @@ fn is_absent(wall: &Wall) -> bool {
     [wall.pushed, wall.pulled].into_iter().flatten().all(|force| force.abs() <= ABSENT)
 }
 
-/// Whether particles move less through the wall than a free body.
 fn stops_particles(wall: &Wall) -> bool {
     wall.through.is_some_and(|through| through.abs() <= 0.8 * TRAVEL)
 }
