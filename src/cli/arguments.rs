@@ -107,12 +107,6 @@ pub(super) enum Format {
 #[error("expected {0}")]
 pub(super) struct Expected(pub(super) Cow<'static, str>);
 
-impl Expected {
-    fn one(what: &'static str) -> Self {
-        Self(what.into())
-    }
-}
-
 pub(super) fn seconds(text: &str) -> Result<f64, Expected> {
     let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
     let known = units.iter().find_map(|(unit, size)| {
@@ -120,17 +114,17 @@ pub(super) fn seconds(text: &str) -> Result<f64, Expected> {
         Some(number * size)
     });
     let usable = known.filter(|time| *time > 0.0 && time.is_finite());
-    usable.ok_or_else(|| Expected::one("a time with its unit, such as `10s` or `500ms`"))
+    usable.ok_or_else(|| Expected("a time with its unit, such as `10s` or `500ms`".into()))
 }
 
 pub(super) fn whole(text: &str) -> Result<usize, Expected> {
-    text.parse().map_err(|_| Expected::one("a whole number"))
+    text.parse().map_err(|_| Expected("a whole number".into()))
 }
 
 /// Parses a whole number of at least 1.
 pub(super) fn count(text: &str) -> Result<usize, Expected> {
     let known = text.parse().ok().filter(|count| *count > 0);
-    known.ok_or_else(|| Expected::one("a whole number, 1 or more"))
+    known.ok_or_else(|| Expected("a whole number, 1 or more".into()))
 }
 
 fn megabytes(text: &str) -> Result<u64, Expected> {
@@ -139,13 +133,13 @@ fn megabytes(text: &str) -> Result<u64, Expected> {
 
 pub(super) fn number(text: &str) -> Result<f64, Expected> {
     let known = text.parse().ok().filter(|number: &f64| number.is_finite());
-    known.ok_or_else(|| Expected::one("a finite number"))
+    known.ok_or_else(|| Expected("a finite number".into()))
 }
 
 /// Parses a finite number that is not negative.
 pub(super) fn share(text: &str) -> Result<f64, Expected> {
     let known = number(text).ok().filter(|share| *share >= 0.0);
-    known.ok_or_else(|| Expected::one("a finite number, zero or more"))
+    known.ok_or_else(|| Expected("a finite number, zero or more".into()))
 }
 
 #[derive(Debug, Args)]

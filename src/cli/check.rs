@@ -19,22 +19,16 @@ pub(super) struct CheckArgs {
     /// Exit with status 1 if there are warnings
     #[arg(long)]
     strict: bool,
-    #[command(flatten)]
-    print: CheckPrintArgs,
-    #[command(flatten)]
-    format: FormatArgs,
-    #[command(flatten)]
-    solver: SolverArgs,
-}
-
-#[derive(Debug, Args)]
-struct CheckPrintArgs {
     /// Omit valid suites and notes
     #[arg(long, short)]
     quiet: bool,
     /// Print all notes [default: only notes about named suites, and the number of other notes]
     #[arg(long, conflicts_with = "quiet")]
     notes: bool,
+    #[command(flatten)]
+    format: FormatArgs,
+    #[command(flatten)]
+    solver: SolverArgs,
 }
 
 pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
@@ -145,8 +139,8 @@ impl CheckFindings {
         let is_named = count <= args.targets.targets.len();
         Self {
             is_json: args.format.is_json(),
-            is_quiet: args.print.quiet,
-            has_notes: args.print.notes || (is_named && !args.print.quiet),
+            is_quiet: args.quiet,
+            has_notes: args.notes || (is_named && !args.quiet),
             suites: Vec::new(),
             applicable: applicable.then(ApplicableSuites::default),
         }

@@ -3,7 +3,6 @@
 use crate::cli::arguments::{Expected, SOLVER, SolversArgs, Targets, count, whole};
 use clap::{Args, ValueEnum};
 use mpm_verify::study::Shard;
-use std::convert::Infallible;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -45,21 +44,9 @@ pub(in crate::cli) struct RunArgs {
     #[arg(help_heading = FILES, long, value_name = "DIR", num_args = 0..=1, require_equals = true,
         default_missing_value = "",
         conflicts_with_all = ["case", "shard", "repeat", "full"])]
-    pub(super) snapshots: Option<SnapshotFolder>,
+    pub(super) snapshots: Option<String>,
     #[command(flatten)]
     pub(super) judged: JudgedSolverArgs,
-}
-
-/// Folder of snapshots; `None` for the folder of each suite.
-#[derive(Debug, Clone)]
-pub(in crate::cli) struct SnapshotFolder(pub(in crate::cli) Option<PathBuf>);
-
-impl FromStr for SnapshotFolder {
-    type Err = Infallible;
-
-    fn from_str(text: &str) -> Result<Self, Infallible> {
-        Ok(Self(Some(PathBuf::from(text)).filter(|_| !text.is_empty())))
-    }
 }
 
 #[derive(Debug, Args)]

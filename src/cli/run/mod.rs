@@ -11,8 +11,8 @@ mod queue;
 use super::output::{CommandError, Status};
 use super::suite_runs::{self, SuitePart, SuiteRuns};
 use super::{output, select, snapshots, solver};
+use args::ReportArgs;
 pub(super) use args::{MergeArgs, RunArgs};
-use args::{ReportArgs, SnapshotFolder};
 use files::Series;
 use gate::{JudgedSolver, SolverGate};
 use mpm_verify::report::{self, RunTimes};
@@ -30,7 +30,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
-    report(&args.report, args.snapshots.as_ref(), |suites| chosen(args, suites))
+    report(&args.report, args.snapshots.as_deref(), |suites| chosen(args, suites))
 }
 
 /// Runs suites for a first look: also draws a convergence plot, and suggests commands.
@@ -109,7 +109,7 @@ const LONG: f64 = 10.0;
 /// suites are printed even if a later file is invalid.
 fn report(
     args: &ReportArgs,
-    snapshots: Option<&SnapshotFolder>,
+    snapshots: Option<&str>,
     choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError>,
 ) -> Result<Status, CommandError> {
     args.out.as_deref().map_or(Ok(()), files::prepare_out)?;
@@ -162,9 +162,11 @@ fn report(
     let page = |file| files::write_page(file, &sources, &outcomes, refused.len(), times.start);
     let junit = |file| files::write_junit(file, &outcomes, &judging.required(), &times);
     let mut passed = outcomes.iter().all(SuiteOutcome::passed);
-    let compare = |SnapshotFolder(folder): &SnapshotFolder| {
+    let compare = |folder: &str| {
         let print = if printing.is_text() { output::print } else { output::complain };
-        snapshots::compare(folder.as_deref(), &sources, &outcomes, print)
+        // Without a folder, snapshots are next to the suites.
+        let folder = Some(Path::new(folder)).filter(|_| !folder.is_empty());
+        snapshots::compare(folder, &sources, &outcomes, print)
     };
     let written = written.and(snapshots.map_or(Ok(true), compare).map(|same| passed &= same));
     let written = written.and(args.html.as_deref().map_or(Ok(()), page));
