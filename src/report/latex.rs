@@ -115,8 +115,7 @@ fn number(text: &str) -> String {
     format!("{before}{cell}{after}")
 }
 
-/// Escapes text for LaTeX. Letters of Latin alphabets do not change. Other characters outside ASCII
-/// become their LaTeX command, or a question mark if there is none.
+/// Escapes text for LaTeX. Characters outside Latin alphabets become their command or `?`.
 pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

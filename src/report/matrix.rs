@@ -69,8 +69,7 @@ pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
     })
 }
 
-/// Lists the suites in which methods of a column fail, each with the kinds of failure, such as a
-/// low order, an error that grows or stops decreasing, or a failed run.
+/// Lists the suites in which methods of a column fail, each with the kinds of failure.
 pub(crate) fn failures(outcomes: &[SuiteOutcome], column: usize) -> Vec<(&str, Vec<String>)> {
     let of_suite = |outcome: &'_ SuiteOutcome| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column && case.fails());

@@ -77,8 +77,7 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// Returns two columns: the largest error of the quantity `of` at the end, and the order of this
-/// error. An error that equals the judged error is shown as a dash.
+/// Returns the largest final error of `of`, a dash if it equals the judged error, and its order.
 pub(crate) fn largest_error<'a>(of: Quantity) -> [LevelColumn<'a>; 2] {
     let heading = format!("linf of {} at end ({})", of.words(), of.unit());
     let about = "order of the largest error between the two finest levels";

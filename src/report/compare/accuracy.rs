@@ -92,8 +92,7 @@ fn error_of((old, new): LevelPair<'_>, axis: Option<&str>, tolerance: f64) -> Op
     }
 }
 
-/// Returns the ratio of new to old transfers on the finest level. If the finest level has no
-/// change, returns the ratio on the level with the largest change.
+/// Returns the ratio of new to old transfers on the finest level, or else the largest change.
 pub(super) fn work(pairs: &[LevelPair<'_>], tolerance: f64) -> Option<f64> {
     let ratio = |(old, new): &LevelPair<'_>| match (old.transfers, new.transfers) {
         (a, b) if a == b => 1.0,

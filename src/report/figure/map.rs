@@ -161,8 +161,7 @@ fn colour(share: f64) -> (String, &'static str) {
     (format!("#{r:02x}{g:02x}{b:02x}"), if share < 0.45 { OVER_DARK } else { OVER_LIGHT })
 }
 
-/// Removes the first word of the names if all rows have it in common. Merges neighbouring rows with
-/// equal fields and names that differ only in the last word: `flip-usf/musl`.
+/// Merges rows whose names differ in the last word (`flip-usf/musl`). Removes a common first word.
 pub(crate) fn merged_fields(rows: Vec<(String, Vec<MapField>)>) -> Vec<(String, Vec<MapField>)> {
     let first =
         |name: &str| name.split_once('-').map_or(String::new(), |(word, _)| word.to_owned());

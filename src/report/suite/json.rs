@@ -19,8 +19,7 @@ pub fn json(outcomes: &[SuiteOutcome]) -> String {
     format!("{:#}\n", json!({ "version": version, "commit": commit(), "suites": suites }))
 }
 
-/// Returns the tested commit: from the environment variable of a CI service, or from git if the
-/// current folder is in a checkout. Uncommitted changes add `-dirty`.
+/// Returns the tested commit from a CI service or git. Uncommitted changes add `-dirty`.
 pub(crate) fn commit() -> Option<String> {
     let variable = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
     let from_git = || {

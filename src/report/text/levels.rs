@@ -60,8 +60,7 @@ fn first_crossings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     }
 }
 
-/// Describes the levels, one fact in each line: `8, 16, 32 cells along X`, the range of `h`,
-/// `dt = ... s`, `4 particles per cell`, `32 ... 128 particles`, `... steps`.
+/// Describes the levels, one fact in each line: `8, 16, 32 cells along X`, `dt = ... s`.
 fn setting(study: &Convergence) -> String {
     // A failed level has fewer steps than planned, so it is excluded.
     let levels = || study.levels.iter().filter(|level| level.run.failure.is_none());

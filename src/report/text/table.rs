@@ -45,8 +45,7 @@ impl Table {
         self.rows.len() == 1
     }
 
-    /// Merges rows that are equal except for the first cell, the name. A merged row has the
-    /// combined name, or `all other cases` if the name would be too long.
+    /// Merges rows that are equal except for the name, which is combined or `all other cases`.
     pub(crate) fn merged(self) -> Self {
         self.merged_by(merged_blocks)
     }

@@ -161,8 +161,7 @@ impl FallTimes {
     }
 }
 
-/// Condition on the times of a fall, weight and name of the finding, likely cause, and the code to
-/// check. The first rule whose condition holds gives the finding.
+/// Condition, weight and name of the finding, cause, and code to check. The first one decides.
 type FallRule = (fn(&FallTimes) -> bool, FindingWeight, &'static str, &'static str, &'static str);
 
 const RULES: [FallRule; 8] = [

@@ -137,8 +137,7 @@ fn examine_wall(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(RULES.judge(&rows))
 }
 
-/// Creates two bodies with a common face normal to `axis`. The second body moves against the first
-/// one (`way` -1) or away from it (1), and along the common face.
+/// Creates bodies with a common face; the second moves against the first (`way` -1) or away (1).
 fn colliding(kind: Kind, axis: usize, way: f64) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], 6.0, 2.0);
     (scene.young, scene.poisson) = (3.1, 0.0);

@@ -87,8 +87,7 @@ fn column(kind: Kind, steps: u64) -> BoxScene {
     BoxScene { gravity: Some(gravity), steps, dt: 1.0, ..scene }
 }
 
-/// Returns the displacements after one load step and after each of five, relative to the exact one
-/// under the whole weight, and the largest deviation from its profile.
+/// Returns all displacements over the exact one under the whole weight, and the largest deviation.
 fn row(scenes: &[BoxScene], courses: &[Course]) -> Row<7> {
     let (mut values, mut deviation) = ([None; 7], 0.0);
     let states = courses
@@ -104,8 +103,7 @@ fn row(scenes: &[BoxScene], courses: &[Course]) -> Row<7> {
     ("relative to the exact displacement under the whole weight".to_owned(), values)
 }
 
-/// Returns the factor of the exact displacement that fits state `k` best, and the largest
-/// difference from this multiple, relative to the largest exact displacement.
+/// Returns the factor of the exact displacement that fits state `k` best, and its largest error.
 fn share(course: &Course, scene: &BoxScene, k: usize) -> (f64, f64) {
     let length = CELLS * scene.h;
     let exact = |label: Vector3<f64>| {

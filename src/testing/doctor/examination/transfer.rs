@@ -175,8 +175,7 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     Losses { first: share(0, 1), later: share(2, last) / (last - 2) as f64, unit }
 }
 
-/// Finds the cause of losses by comparing them with the averaging losses of each basis. `small`
-/// contains the losses in a stretch of a body with an eighth of the size.
+/// Compares losses with those of averaging; `small` belongs to a body of an eighth of the size.
 fn cause(
     patient: &Patient<'_>,
     [stretch, rotation, small]: [Losses; 3],

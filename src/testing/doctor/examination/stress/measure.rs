@@ -183,8 +183,7 @@ pub(crate) fn inside(course: &Course, scene: &BoxScene, column: &[f64]) -> Optio
     })
 }
 
-/// Returns the mean of a tensor column (`d * d` numbers per point) over the points for whose label
-/// `is_near` returns true. `None` without this column, NaN without such points.
+/// Returns the mean of a tensor column over the points for which `is_near` holds, if reported.
 pub(crate) fn mean_tensor(
     course: &Course,
     column: &[f64],

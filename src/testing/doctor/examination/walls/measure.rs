@@ -81,8 +81,7 @@ pub(crate) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene 
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Examines both walls normal to `axis` with bars that are thrown against the walls, move along
-/// them, and fall. On the first axis, both signs of the velocity are tested.
+/// Examines both walls normal to `axis`, on the first axis with both signs of the velocity.
 pub(super) fn walls_across(
     patient: &Patient<'_>,
     kind: Kind,
@@ -239,8 +238,7 @@ impl BarEnd {
         if self.high { ends.1 - label[self.axis] } else { label[self.axis] - ends.0 }
     }
 
-    /// Returns the gain of velocity of this half since the start along `along`, times its length:
-    /// the impulse of the wall divided by the mass per length (m2/s).
+    /// Returns the impulse of the wall along `along` over the mass per length of this half (m2/s).
     fn gained(self, course: &Course, scene: &BoxScene, along: usize, k: usize) -> f64 {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
         let weights = &course.states[0].weight;
