@@ -263,13 +263,10 @@ mod tests {
     }
 
     #[rstest]
-    #[case(1.234_56, 0.001_2, "1.2346 +- 1.2e-3, 95 %: [1.2334, 1.2358]")]
-    #[case(1.5e-7, 2e-9, "1.500e-7 +- 2.0e-9, 95 %: [1.480e-7, 1.520e-7]")]
-    fn an_interval_has_the_digits_of_its_width(
-        #[case] value: f64,
-        #[case] half_width: f64,
-        #[case] expected: &str,
-    ) {
+    #[case([1.234_56, 0.001_2], "1.2346 +- 1.2e-3, 95 %: [1.2334, 1.2358]")]
+    #[case([1.5e-7, 2e-9], "1.500e-7 +- 2.0e-9, 95 %: [1.480e-7, 1.520e-7]")]
+    fn an_interval_has_the_digits_of_its_width(#[case] size: [f64; 2], #[case] expected: &str) {
+        let [value, half_width] = size;
         let limit = Interval { value, low: value - half_width, high: value + half_width };
         assert_eq!(limit_shown(&limit), expected);
     }

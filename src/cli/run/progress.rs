@@ -157,17 +157,15 @@ mod tests {
     use rstest::rstest;
 
     #[rstest]
-    #[case::too_early_to_tell(10.0, 1.0, 100.0, None)]
-    #[case::too_short_to_tell(0.5, 50.0, 100.0, None)]
-    #[case::nothing_predicted(10.0, 0.0, 0.0, None)]
-    #[case(10.0, 50.0, 100.0, Some("about 10 s"))]
-    #[case::machine_twice_as_slow(40.0, 20.0, 100.0, Some("about 3 min"))]
-    #[case(3600.0, 10.0, 100.0, Some("about 9 h"))]
-    #[case::longer_than_predicted(10.0, 100.0, 99.0, Some("about 0 s"))]
+    #[case::too_early_to_tell((10.0, 1.0, 100.0), None)]
+    #[case::too_short_to_tell((0.5, 50.0, 100.0), None)]
+    #[case::nothing_predicted((10.0, 0.0, 0.0), None)]
+    #[case((10.0, 50.0, 100.0), Some("about 10 s"))]
+    #[case::machine_twice_as_slow((40.0, 20.0, 100.0), Some("about 3 min"))]
+    #[case((3600.0, 10.0, 100.0), Some("about 9 h"))]
+    #[case::longer_than_predicted((10.0, 100.0, 99.0), Some("about 0 s"))]
     fn remaining_time_is_predicted_time_at_the_measured_speed(
-        #[case] seconds: f64,
-        #[case] done: f64,
-        #[case] all: f64,
+        #[case] (seconds, done, all): (f64, f64, f64),
         #[case] wanted: Option<&str>,
     ) {
         assert_eq!(time_left(seconds, done, all).as_deref(), wanted);

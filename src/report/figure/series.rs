@@ -259,18 +259,16 @@ mod tests {
     use rstest::rstest;
 
     #[rstest]
-    #[case(0.1, 0.5, Mark::Window, Some((Some(0.5), Mark::Window)))]
-    #[case(0.1, f64::NAN, Mark::Window, Some((None, Mark::Failed)))]
-    #[case(0.1, f64::INFINITY, Mark::OutsideWindow, Some((None, Mark::Failed)))]
-    #[case(0.1, 0.5, Mark::Failed, Some((None, Mark::Failed)))]
-    #[case(0.1, 0.0, Mark::Window, None)]
-    #[case(0.1, -0.5, Mark::Window, None)]
-    #[case(0.0, 0.5, Mark::Window, None)]
-    #[case(f64::NAN, 0.5, Mark::Failed, None)]
+    #[case((0.1, 0.5, Mark::Window), Some((Some(0.5), Mark::Window)))]
+    #[case((0.1, f64::NAN, Mark::Window), Some((None, Mark::Failed)))]
+    #[case((0.1, f64::INFINITY, Mark::OutsideWindow), Some((None, Mark::Failed)))]
+    #[case((0.1, 0.5, Mark::Failed), Some((None, Mark::Failed)))]
+    #[case((0.1, 0.0, Mark::Window), None)]
+    #[case((0.1, -0.5, Mark::Window), None)]
+    #[case((0.0, 0.5, Mark::Window), None)]
+    #[case((f64::NAN, 0.5, Mark::Failed), None)]
     fn points_without_a_place_are_dropped(
-        #[case] x: f64,
-        #[case] error: f64,
-        #[case] mark: Mark,
+        #[case] (x, error, mark): (f64, f64, Mark),
         #[case] drawn: Option<(Option<f64>, Mark)>,
     ) {
         let levels = levels(&[PlotPoint { x, error, mark }]);

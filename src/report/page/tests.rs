@@ -161,12 +161,11 @@ fn colour(name: &str) -> [&'static str; 2] {
 }
 
 #[rstest]
-fn texts_can_be_read(
-    #[values("ink", "muted", "link", "ok", "bad")] text: &str,
-    #[values("page", "raised")] behind: &str,
-) {
-    for (text, behind) in colour(text).into_iter().zip(colour(behind)) {
-        assert!(contrast(text, behind) >= 4.5, "{text} on {behind}: {}", contrast(text, behind));
+fn texts_can_be_read(#[values("ink", "muted", "link", "ok", "bad")] text: &str) {
+    for behind in [colour("page"), colour("raised")] {
+        for (text, behind) in colour(text).into_iter().zip(behind) {
+            assert!(contrast(text, behind) >= 4.5, "{text} on {behind}");
+        }
     }
 }
 
