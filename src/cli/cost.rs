@@ -93,7 +93,7 @@ fn one(runs: &SuiteRuns, solvers: &[SolverProgram], args: &CostArgs) -> Option<T
         let plan = suite.convergence();
         plan.map_or(0, |plan| plan.cases.len() * plan.refine.levels(extent).len())
     };
-    let levels: usize = runs.parts().iter().map(|part| levels(&part.suite)).sum();
+    let levels: usize = runs.parts.iter().map(|part| levels(&part.suite)).sum();
     // Each level runs once to measure its error and once to measure its time.
     let bar = ProgressBar::with_draw_target(Some(2 * levels as u64), ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
@@ -101,7 +101,7 @@ fn one(runs: &SuiteRuns, solvers: &[SolverProgram], args: &CostArgs) -> Option<T
     }
     bar.set_message(runs.suite().name.clone());
     let factory = |number: usize| &solvers[number] as &dyn SolverFactory;
-    let parts = runs.parts().iter();
+    let parts = runs.parts.iter();
     let parts: Vec<TimedPart<'_>> = parts
         .map(|part| TimedPart { suite: &part.suite, solver: part.solver.map(factory) })
         .collect();

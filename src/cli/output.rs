@@ -1,5 +1,4 @@
-//! Standard output and standard error. The first failed write is recorded. Verdicts and errors are
-//! coloured on terminals.
+//! Standard output and standard error with coloured verdicts; records the first failed write.
 
 use anstyle::{AnsiColor, Style};
 use mpm_verify::suite::yaml::Diagnostic;

@@ -1,5 +1,4 @@
-//! Snapshots without Rust: `run --snapshots` compares reports with the files that the test harness
-//! uses, and `mpm-verify accept` accepts changed reports.
+//! Snapshots without Rust: `run --snapshots` compares reports, and `accept` accepts changes.
 
 use super::output::{self, CommandError, Status};
 use clap::Args;

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 pub(super) struct SuiteRuns {
     /// One run by the methods of the suite, and one by each solver.
-    parts: Vec<SuitePart>,
+    pub(super) parts: Vec<SuitePart>,
 }
 
 /// A suite, and the methods or the solver that runs it.
@@ -73,10 +73,6 @@ impl SuiteRuns {
         let suites: Vec<Suite> = runs.into_iter().map(|runs| runs.suite().clone()).collect();
         let part = |suite| Self { parts: vec![SuitePart { suite, solver }] };
         shard.of(&suites, extent).into_iter().map(part).collect()
-    }
-
-    pub(super) fn parts(&self) -> &[SuitePart] {
-        &self.parts
     }
 
     /// Returns the suite of the first part. The problem is the same in all parts.

@@ -139,7 +139,7 @@ fn report(
         }
     }
     let printing = Printing::of(args, suites.len());
-    let parts = runs.iter().flat_map(SuiteRuns::parts).map(|part| &part.suite);
+    let parts = runs.iter().flat_map(|runs| &runs.parts).map(|part| &part.suite);
     let bar = RunProgress::over(parts, extent(args), args.print.quiet);
     if let Some(note) = &judging.at_interrupt {
         bar.note_at_interrupt(note.clone());
@@ -242,7 +242,7 @@ fn run_all(
     let run = |job: &mut Job<'_, _>| {
         let start = Instant::now();
         let is_skipped = args.fail_fast && has_failed.load(Ordering::Relaxed);
-        let parts = if is_skipped { &[][..] } else { runs[job.number()].parts() }.iter();
+        let parts = if is_skipped { &[][..] } else { &runs[job.number].parts }.iter();
         let parts = parts.map(|part| (part.solver, one(part, args, judging, bar, job))).collect();
         let result = JobResult { parts, time: start.elapsed() };
         if result.parts.iter().any(|(_, outcome): &(_, SuiteOutcome)| !outcome.passed()) {
@@ -253,7 +253,7 @@ fn run_all(
     // The speed of an external solver is unknown.
     let is_long = |runs: &SuiteRuns| {
         let seconds = |suite| unit_seconds(suite, extent(args)).iter().sum::<f64>();
-        let mut parts = runs.parts().iter();
+        let mut parts = runs.parts.iter();
         parts.any(|part| part.solver.is_some() || seconds(&part.suite) > LONG)
     };
     let are_long: Vec<bool> = runs.iter().map(is_long).collect();

@@ -187,7 +187,7 @@ pub(super) fn check(args: &ReportArgs, runs: &[SuiteRuns]) -> Result<(), Command
         return Err(CommandError::option("--title", title, "expected one suite"));
     }
     let cases: BTreeSet<&str> =
-        runs.iter().flat_map(SuiteRuns::parts).flat_map(|part| part.suite.case_names()).collect();
+        runs.iter().flat_map(|runs| &runs.parts).flat_map(|part| part.suite.case_names()).collect();
     let mut texts = BTreeSet::new();
     for CaseLabel { case, text } in &args.label {
         if !cases.contains(case.as_str()) {

@@ -11,7 +11,7 @@ pub(super) enum JobOutput<T> {
 }
 
 pub(super) struct Job<'a, T> {
-    number: usize,
+    pub(super) number: usize,
     send: Sender<(usize, JobOutput<T>)>,
     queue: &'a Queue,
     blocks_next: bool,
@@ -58,10 +58,6 @@ impl Queue {
 }
 
 impl<T> Job<'_, T> {
-    pub(super) fn number(&self) -> usize {
-        self.number
-    }
-
     /// Lets the next job start, which happens at the end of this job otherwise. A job that calls
     /// this when it begins its parallel work is served before later jobs.
     pub(super) fn let_next_start(&mut self) {
@@ -136,7 +132,7 @@ mod tests {
     fn outputs(count: usize, threads: usize, run: impl Fn(usize) + Sync) -> String {
         let mut text = String::new();
         let run = |job: &mut Job<'_, String>| {
-            let number = job.number();
+            let number = job.number;
             job.say(format!("m{number} "));
             job.let_next_start();
             run(number);
@@ -186,7 +182,7 @@ mod tests {
     #[test]
     fn a_job_starts_when_the_job_before_it_allows() {
         let is_allowed = AtomicBool::new(false);
-        let run = |job: &mut Job<'_, ()>| match job.number() {
+        let run = |job: &mut Job<'_, ()>| match job.number {
             0 => {
                 thread::sleep(Duration::from_millis(20));
                 is_allowed.store(true, Ordering::SeqCst);
@@ -202,7 +198,7 @@ mod tests {
         let ended = AtomicUsize::new(0);
         let run = |job: &mut Job<'_, ()>| {
             job.let_next_start();
-            if job.number() == 2 {
+            if job.number == 2 {
                 assert_eq!(ended.load(Ordering::SeqCst), 2);
             }
             thread::sleep(Duration::from_millis(20));

@@ -47,7 +47,7 @@ impl LogLogPlot {
             .extend(self.reference_lines().map(|(_, ends)| dotted(&ends.map(|at| plot.place(at)))));
         layers.extend(lines.iter().map(|line| line.draw(&plot)));
         layers.extend(series::failures(&lines).iter().map(|failure| failure.draw(&plot)));
-        if lines.iter().all(|line| line.count() == 0) {
+        if lines.iter().all(|line| line.levels.is_empty()) {
             layers.push(plot.placeholder("no data"));
         }
         plot.document(&layers, &Legend::new(self.entries(&lines)), &self.omissions(&lines))
@@ -129,7 +129,8 @@ impl LogLogPlot {
 
     fn omissions(&self, lines: &[SeriesLine]) -> Vec<String> {
         let points = self.series.iter().chain(&self.others).map(|one| one.points.len());
-        let count = points.sum::<usize>() - lines.iter().map(SeriesLine::count).sum::<usize>();
+        let count =
+            points.sum::<usize>() - lines.iter().map(|line| line.levels.len()).sum::<usize>();
         let points = if count == 1 { "point" } else { "points" };
         let note = format!(
             "Not drawn on logarithmic axes: {count} {points} (a coordinate is not positive)."

@@ -95,7 +95,7 @@ pub(super) struct SeriesLine<'a> {
     name: &'a str,
     look: Look,
     grey: bool,
-    levels: Vec<PlotPoint>,
+    pub(super) levels: Vec<PlotPoint>,
 }
 
 impl<'a> SeriesLine<'a> {
@@ -108,14 +108,6 @@ impl<'a> SeriesLine<'a> {
     pub(super) fn in_grey(series: &'a PlotSeries) -> Self {
         let look = Look { colour: CONTEXT, ..look(0) };
         Self { name: &series.name, look, grey: true, levels: levels(&series.points) }
-    }
-
-    pub(super) fn is_named(&self) -> bool {
-        !self.grey
-    }
-
-    pub(super) fn count(&self) -> usize {
-        self.levels.len()
     }
 
     pub(super) fn xs(&self) -> impl Iterator<Item = f64> {
@@ -173,13 +165,13 @@ const MARKS: [(Mark, &str); 4] = [
 ];
 
 pub(super) fn names(lines: &[SeriesLine]) -> Vec<LegendEntry> {
-    lines.iter().filter(|line| line.is_named()).map(SeriesLine::entry).collect()
+    lines.iter().filter(|line| !line.grey).map(SeriesLine::entry).collect()
 }
 
 /// Returns the legend entries of the marks that occur, for unnamed series only failures.
 pub(super) fn marks(lines: &[SeriesLine]) -> Vec<LegendEntry> {
     let occurs = |mark| {
-        let drawn = lines.iter().filter(|line| line.is_named() || mark == Mark::Failed);
+        let drawn = lines.iter().filter(|line| !line.grey || mark == Mark::Failed);
         drawn.flat_map(|line| &line.levels).any(|level| level.mark == mark)
     };
     let marks = MARKS.iter().filter(|(mark, _)| occurs(*mark));

@@ -81,10 +81,8 @@ fn dot(scales: [Scale; 2], point: &PlottedLevel) -> [usize; 2] {
 }
 
 fn framed(canvas: &Canvas, scales: [Scale; 2], spacing: &str) -> Vec<String> {
-    let [[left, right], [bottom, top]] = scales.map(|scale| {
-        let (low, high) = scale.ends();
-        [low, high].map(|end| libm::pow(10.0, end))
-    });
+    let [[left, right], [bottom, top]] =
+        scales.map(|scale| [scale.lo, scale.hi].map(|end| libm::pow(10.0, end)));
     let row = |(k, row): (usize, String)| {
         let label = match k {
             0 => short(top),

@@ -7,8 +7,8 @@ use super::svg::{Pt, SvgElement};
 /// A logarithmic axis. Its working coordinate, which is linear in pixels, is the decimal logarithm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
-    lo: f64,
-    hi: f64,
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
 }
 
 /// Empty space at the ends of an axis, as fractions of its length.
@@ -30,11 +30,6 @@ impl Scale {
         let (lo, hi) = (lo - widen, hi + widen);
         let span = (hi - lo) / (1.0 - pad.lo - pad.hi);
         Self { lo: lo - pad.lo * span, hi: hi + pad.hi * span }
-    }
-
-    /// Returns both ends in working coordinates.
-    pub(crate) fn ends(&self) -> (f64, f64) {
-        (self.lo, self.hi)
     }
 
     pub(crate) fn span(&self) -> f64 {
@@ -125,9 +120,9 @@ mod tests {
     #[case(&[0.1, 0.1], -1.25, -0.75)]
     #[case(&[0.0, -1.0, f64::NAN], -1.0, 0.0)]
     fn log_ranges(#[case] values: &[f64], #[case] lo: f64, #[case] hi: f64) {
-        let (a, b) = Scale::log(values.iter().copied(), NONE).ends();
-        assert_abs_diff_eq!(a, lo, epsilon = 1e-12);
-        assert_abs_diff_eq!(b, hi, epsilon = 1e-12);
+        let scale = Scale::log(values.iter().copied(), NONE);
+        assert_abs_diff_eq!(scale.lo, lo, epsilon = 1e-12);
+        assert_abs_diff_eq!(scale.hi, hi, epsilon = 1e-12);
     }
 
     #[test]

@@ -53,7 +53,7 @@ fn decades(scale: &Scale, stride: i32) -> Vec<Tick> {
 /// ten. If there are fewer than three such labels, more digits are labelled.
 fn short_log(scale: &Scale) -> Vec<Vec<Tick>> {
     // All labels of the axis have the same notation.
-    let (lo, hi) = scale.ends();
+    let Scale { lo, hi } = *scale;
     let written_out = lo >= WRITTEN_OUT.0 && hi <= WRITTEN_OUT.1;
     let labelled = |ticked: &[i32], shown: &[i32]| {
         log_ticks(scale, ticked, |digit, power| {
@@ -87,7 +87,7 @@ fn log_ticks(
     digits: &[i32],
     label: impl Fn(i32, i32) -> Option<Label>,
 ) -> Vec<Tick> {
-    let (lo, hi) = scale.ends();
+    let Scale { lo, hi } = *scale;
     let mut ticks = Vec::new();
     for power in libm::floor(lo) as i32..=libm::ceil(hi) as i32 {
         for &digit in digits {
