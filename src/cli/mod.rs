@@ -204,10 +204,8 @@ fn run_command(command: Command) -> Result<Status, CommandError> {
     }
 }
 
-/// Inserts the command `run` into the arguments if they contain no command.
-///
-/// # Errors
-/// If the first argument is neither a command nor a suite, but is similar to a command.
+/// Inserts the command `run` into the arguments if they contain no command. Fails if the first
+/// argument is no suite, but is similar to a command.
 fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsString>, CommandError> {
     let at = first(&words);
     let word = words.get(at).map(|word| word.to_string_lossy());

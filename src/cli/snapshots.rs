@@ -63,9 +63,6 @@ fn pending(path: &Path) -> io::Result<Vec<PathBuf>> {
 
 /// Compares each report with its snapshot in `folder`, or next to the suite, and returns whether
 /// all agree. A different report without failing cases is written next to the snapshot.
-///
-/// # Errors
-/// If a suite is in no folder, or if a file cannot be read or written.
 pub(super) fn compare(
     folder: Option<&Path>,
     sources: &[Source],

@@ -13,10 +13,7 @@ pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, Comman
     args.solver.as_deref().map(|command| greet(command, &args.limits)).transpose()
 }
 
-/// Starts all solvers of the command line, with their names.
-///
-/// # Errors
-/// If a solver does not start or violates the protocol, or if two solvers have the same name.
+/// Starts all solvers of the command line, whose names must differ.
 pub(super) fn greet_all(args: &SolversArgs) -> Result<Vec<SolverProgram>, CommandError> {
     let mut names = BTreeSet::new();
     for one in &args.solver {

@@ -88,9 +88,6 @@ pub(super) fn repeated<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<&
 }
 
 /// Checks that case names, such as the name of a solver, are unique within each suite.
-///
-/// # Errors
-/// If a case of a suite has the name of a solver.
 pub(super) fn check_names(runs: &[SuiteRuns]) -> Result<(), CommandError> {
     for runs in runs {
         let names = runs.parts.iter().flat_map(|part| part.suite.case_names());

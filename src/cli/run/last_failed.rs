@@ -9,10 +9,7 @@ use std::{fs, io};
 /// Folder of the list, in the current folder.
 const FOLDER: &str = ".mpm-verify";
 
-/// Selects the cases that failed in the last run.
-///
-/// # Errors
-/// If no case is recorded, or if no recorded case is among `runs`.
+/// Selects the cases that failed in the last run. Fails if there are none among `runs`.
 pub(super) fn select(runs: Vec<SuiteRuns>) -> Result<Vec<SuiteRuns>, CommandError> {
     let list = fs::read_to_string(Path::new(FOLDER).join("last-failed"));
     let list = list.map_err(|_| {

@@ -296,10 +296,7 @@ fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     pool.build_global().map_err(|error| CommandError::option("--jobs", jobs, error))
 }
 
-/// Determines the number of runs of each level.
-///
-/// # Errors
-/// If `--repeat` would measure no spread, or would mix stored results with new ones.
+/// Returns the number of runs of each level. Fails without a spread, or with stored results.
 fn repetitions(args: &RunArgs) -> Result<usize, CommandError> {
     const MOST: usize = 100;
     let Some(repeat) = args.repeat else { return Ok(1) };

@@ -178,10 +178,7 @@ fn failures(outcomes: &[SuiteOutcome]) -> String {
     text
 }
 
-/// Checks the labels of the command line against the cases of the run.
-///
-/// # Errors
-/// If a label matches no case, or two cases or several suites would have the same text.
+/// Checks that each label matches a case, and that no two cases or suites have the same text.
 pub(super) fn check(args: &ReportArgs, runs: &[SuiteRuns]) -> Result<(), CommandError> {
     if let Some(title) = args.title.as_ref().filter(|_| runs.len() > 1) {
         return Err(CommandError::option("--title", title, "expected one suite"));

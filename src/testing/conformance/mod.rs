@@ -58,10 +58,7 @@ pub fn conformance_on(solver: &dyn SolverFactory, suite: &Suite) -> Vec<Breach> 
     })
 }
 
-/// Returns all breaches of the contract on the coarsest level of `suite`.
-///
-/// # Errors
-/// One line with the reason why the solver cannot run the suite.
+/// Returns all breaches on the coarsest level of `suite`, or why the solver cannot run the suite.
 pub(crate) fn examined(
     solver: &dyn SolverFactory,
     suite: &Suite,

@@ -114,19 +114,16 @@ fn examined(outcome: Result<Examined, Hindrance>) -> ExaminationResult {
         }
         Err(Hindrance::Broke(seen)) => ExaminationResult::Examined {
             measured: "nothing, because the run did not complete".to_owned(),
-            findings: vec![broke(seen)],
+            findings: vec![SolverFinding::defect(
+                BROKE,
+                seen,
+                "the solver stopped, reported a failure or violated the protocol during the run",
+                "the solver's standard error; the table of errors in docs/protocol.md; indices \
+                 that are computed from `grid.origin` and `grid.cells` of the problem, which \
+                 differ between axes",
+            )],
         },
     }
-}
-
-fn broke(seen: String) -> SolverFinding {
-    SolverFinding::defect(
-        BROKE,
-        seen,
-        "the solver stopped, reported a failure or violated the protocol during the run",
-        "the solver's standard error; the table of errors in docs/protocol.md; indices that are \
-         computed from `grid.origin` and `grid.cells` of the problem, which differ between axes",
-    )
 }
 
 /// Returns the first examination with defects on which `examination` depends, even indirectly.
