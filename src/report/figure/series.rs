@@ -153,7 +153,7 @@ impl<'a> SeriesLine<'a> {
         let line = SvgElement::line((0.0, 0.0), (KEY, 0.0)).stroke(colour, 1.6);
         let marker = marker::draw(shape, Fill::Solid, colour, (KEY / 2.0, 0.0));
         let note = if self.levels.is_empty() { " (no data)" } else { "" };
-        LegendEntry::new(SvgElement::group([line, marker]), &format!("{}{note}", self.name))
+        LegendEntry::new(SvgElement::group(&[line, marker]), &format!("{}{note}", self.name))
     }
 }
 
@@ -185,7 +185,7 @@ fn key(mark: Mark) -> SvgElement {
     }
     let arrow = marker::arrow_up((x + 7.0, y + 5.0), (x + 7.0, y - 6.0), NEUTRAL);
     let circle = marker::draw(MarkerShape::Circle, Fill::Hollow, NEUTRAL, (x - 5.0, y));
-    SvgElement::group([arrow, circle])
+    SvgElement::group(&[arrow, circle])
 }
 
 fn fill(mark: Mark) -> Fill {

@@ -32,7 +32,7 @@ pub(crate) fn draw(shape: MarkerShape, fill: Fill, colour: &str, at: Pt) -> SvgE
     let arm = 0.55 * CROSSED_RADIUS;
     let (x, y) = (at.0, at.1 + lowered(shape) * CROSSED_RADIUS);
     let stroke = |dy| SvgElement::line((x - arm, y - dy), (x + arm, y + dy)).stroke(colour, 1.2);
-    SvgElement::group([body, stroke(arm), stroke(-arm)])
+    SvgElement::group(&[body, stroke(arm), stroke(-arm)])
 }
 
 /// Draws an arrow from `tail` straight up to `tip`, for a value that does not fit in the frame.

@@ -88,7 +88,7 @@ impl Label {
         };
         let base = SvgElement::text((joint, at.1), "end", &self.base);
         let exponent = SvgElement::text((joint, at.1 - 5.0), "start", &self.superscript());
-        SvgElement::group([base, exponent.at("font-size", SUPERSCRIPT)])
+        SvgElement::group(&[base, exponent.at("font-size", SUPERSCRIPT)])
     }
 
     fn superscript(&self) -> String {

@@ -44,9 +44,11 @@ impl SvgElement {
     }
 
     /// Creates a group of these elements.
-    pub(crate) fn group<const N: usize>(children: [Self; N]) -> Self {
+    pub(crate) fn group(children: &[Self]) -> Self {
         let mut group = Self::new("g");
-        children.iter().for_each(|child| group.add(child));
+        for child in children {
+            group.add(child);
+        }
         group
     }
 

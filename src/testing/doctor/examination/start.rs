@@ -282,11 +282,10 @@ fn force_of_deformed_body(force: &str, forces: &Forces) -> SolverFinding {
 }
 
 fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFinding> {
-    let d = scene.dimension;
+    let (d, law) = (scene.dimension, scene.law);
     // The motion in the first step is much smaller than the initial displacement.
     let reach = course.farthest(displacement, 0, [0.0; 3]);
     let off = course.first_motion() / reach;
-    let law = scene.law;
     if !(off <= 0.2) {
         let share = shown(off);
         return Some(SolverFinding::defect(
