@@ -47,8 +47,7 @@ pub trait FacePoint {
     fn traction(&self, i: usize, what: &str, given: f64) -> Result<(), Violation>;
 
     /// Requires u . n = 0 and no tension. The tangential traction must be `coefficient` times the
-    /// pressure and opposite to the velocity, or at most `coefficient` times the pressure if the
-    /// face does not move.
+    /// pressure against the velocity, or at most this if the face does not move.
     ///
     /// # Errors
     /// The first violation.

@@ -179,8 +179,7 @@ impl<'a> Line<'a> {
     /// Computes the correction (m) of a state of rest, from equilibrium of the nodal forces.
     fn at_rest(&mut self, t: f64) -> Option<Vec<f64>> {
         let (forces, held) = self.forces(t)?;
-        // Except for the reaction at the low end, the force in an element is minus the sum of all
-        // nodal forces below the element.
+        // Without the reaction, the force in an element is minus the sum of all nodal forces below.
         let mut below = 0.0;
         let mut sums = Vec::with_capacity(self.elements);
         for force in &forces[..self.elements] {

@@ -259,8 +259,7 @@ mod tests {
         assert_relative_eq!(kinetic + stored, 0.261_799_388, max_relative = 1e-8);
     }
 
-    /// Checks d/dX and d/dY of X^2 Y. A density that is negative by rounding has zero value and
-    /// slope.
+    /// The slopes of X^2 Y. A density that is negative by rounding has zero value and slope.
     #[test]
     fn slopes_are_derivatives_of_the_formula() {
         let density = Density { formula: Some(formula("X^2*Y", 2)), ..Density::from(1.0) };

@@ -8,8 +8,7 @@ use mpm_subject::PlaneState;
 use mpm_subject::with_dimension;
 
 impl Equation {
-    /// Whether the law is for finite strains. Small-strain laws neglect the change of
-    /// configuration.
+    /// Whether the law is for finite strains, unlike small-strain laws.
     pub fn is_finite(&self) -> bool {
         self.small_strain_modulus().is_none()
     }
@@ -23,9 +22,8 @@ impl Equation {
         pushed_forward(&piola, grad)
     }
 
-    /// Returns `J F^-T N` (Nanson's formula): the current area vector per unit area of a reference
-    /// face. N is the outward normal of the `high` or low face along `axis`. In small-strain
-    /// theory, the result is N.
+    /// Returns `J F^-T N` (Nanson's formula), the current area vector per reference area. N is the
+    /// outward normal of the `high` or low face along `axis`, and the result for small strains.
     pub fn present_area(&self, grad: &Tensor<f64>, axis: usize, high: bool) -> [f64; 3] {
         let outwards = if high { 1.0 } else { -1.0 };
         let f: Tensor<f64> = if self.is_finite() {
@@ -36,9 +34,8 @@ impl Equation {
         std::array::from_fn(|i| outwards * cofactor(&f, i, axis))
     }
 
-    /// Computes Div P (N/m3) from the displacement gradient and its derivatives,
-    /// `second[k][a][b] = d2 u_k/dX_a dX_b`. The motion must vary only along the first `dimension`
-    /// axes.
+    /// Computes Div P (N/m3) from the displacement gradient and `second[k][a][b] = d2 u_k/dX_a
+    /// dX_b`. The motion must vary only along the first `dimension` axes.
     pub fn divergence(
         &self,
         dimension: usize,
@@ -54,8 +51,7 @@ impl Equation {
     }
 }
 
-/// Adds the out-of-plane displacement gradient, `F_33 - 1`, and its in-plane derivatives to the
-/// derivatives of a plane motion.
+/// Adds `F_33 - 1` and its in-plane derivatives to the derivatives of a plane motion.
 pub(super) fn complete_in_plane(
     plane: PlaneState,
     equation: &Equation,

@@ -7,8 +7,7 @@
 //! `P = C : eps + S0`, which neglects `grad u S0` compared with `C : eps`. S0 must therefore be
 //! much smaller than the moduli, just as strains must be much smaller than 1.
 //!
-//! For a law with a yield surface, S0 is the stress at F = I of the elastic strain at the start. It
-//! is not added to the stress of the law.
+//! For a law with a yield surface, S0 is the stress of an elastic initial strain, and is not added.
 
 use super::formula::{Formula, Number, Slope};
 use super::tensor::{Tensor, pushed_forward, sum, tensor};
@@ -16,8 +15,7 @@ use super::tensor::{Tensor, pushed_forward, sum, tensor};
 /// Initial stress S0 (Pa), a symmetric tensor field on the reference body.
 #[derive(Debug, Clone, Default)]
 pub struct InitialStress {
-    /// Row, column and formula of each given component, with row <= column. The formulas depend on
-    /// the coordinates. Other components are zero.
+    /// Row <= column, and formula of the coordinates, of each given component; others are zero.
     components: Vec<(usize, usize, Formula)>,
 }
 

@@ -1,8 +1,7 @@
 //! Exact solutions, and the check that they solve their problems.
 //!
-//! A suite gives its solution as formulas ([`formula`]). Its continuum problem becomes a
-//! [`Problem`]. [`check`](Problem::check) substitutes the formulas into the problem before any
-//! solver runs. The module imports no solver.
+//! A suite gives its solution as formulas ([`formula`]), and its problem becomes a [`Problem`].
+//! [`check`](Problem::check) substitutes the formulas into it before any solver runs.
 
 mod check;
 mod condition;

@@ -6,8 +6,7 @@ use super::gauss::points;
 /// Number of quadrature panels along each axis, by dimension.
 const PANELS: [usize; 3] = [16, 8, 3];
 
-/// Maximum derivative `q/v dv/dq` that counts as rounding error, for a velocity v and a parameter
-/// q.
+/// Maximum derivative `q/v dv/dq` of a velocity v that counts as rounding error of the parameter q.
 const ROUNDING: f64 = 1e-14;
 
 /// A displacement whose formulas contain a parameter as a variable.
@@ -23,8 +22,7 @@ pub struct ParametricMotion {
     pub value: f64,
 }
 
-/// Displacement and velocity at one position and time, with their derivatives with respect to the
-/// parameter.
+/// Displacement and velocity at one position and time, and their derivatives by the parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParametricState {
     /// Displacement (m).
@@ -38,8 +36,7 @@ pub struct ParametricState {
 }
 
 impl ParametricMotion {
-    /// Computes the state at the reference position `label` (m) and time `t` (s), by
-    /// differentiation of the formulas.
+    /// Computes the state at the position `label` (m) and time `t` (s) from the formulas.
     pub fn at(&self, label: &[f64], t: f64) -> ParametricState {
         let mut variables: Vec<Jet<2>> = label.iter().map(|x| Jet::from(*x)).collect();
         variables.extend([Jet::variable(t, 0), Jet::variable(self.value, 1)]);

@@ -2,8 +2,7 @@
 //!
 //! The stress is the sum of the law's stress (with thermal expansion) and the initial stress.
 //!
-//! Displacements and manufactured forces are computed once for all runs of a study that have the
-//! same particle positions and time steps.
+//! Runs of a study with the same positions and time steps share displacements and forces.
 
 use super::condition::Face;
 use super::density::Density;
@@ -44,15 +43,13 @@ pub struct Problem {
     /// Whether the motion is an equilibrium: it does not depend on t, is checked with the loads at
     /// the end of the run, and need not satisfy the initial conditions.
     pub at_rest: bool,
-    /// Whether an additional body force makes the motion a solution (method of manufactured
-    /// solutions, Roache 2002).
+    /// Whether a body force is added for the motion (manufactured solutions, Roache 2002).
     pub manufactured: bool,
     /// The heat problem of a heat-conducting body.
     pub heat: Option<Conduction>,
     /// All faces of the body.
     pub faces: Vec<Face>,
-    /// Whether initial conditions that are not prescribed are taken from the motion. If false, they
-    /// are zero.
+    /// Whether initial conditions that are not prescribed are those of the motion, instead of zero.
     pub follows_motion: bool,
     /// Initial stress of the reference configuration.
     pub initial_stress: InitialStress,
@@ -72,9 +69,8 @@ pub struct Problem {
     pub shared: Option<Arc<SharedValues>>,
 }
 
-/// The residual that a linearised motion may have in the conditions that involve the law: the
-/// equation of motion and tractions. Conditions that are linear in u are still checked with the
-/// tolerance of the problem.
+/// The residual of a linearised motion in the equation of motion and in tractions. Conditions that
+/// are linear in u are still checked with the tolerance of the problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linearised {
     /// Maximum residual, relative to the terms of the condition.
@@ -112,9 +108,8 @@ impl Problem {
         self.equation.modulus() * self.equation.density_factor(self.density.largest())
     }
 
-    /// Returns the largest speed of a small-strain wave in the body (m/s):
-    /// `sqrt((lambda + 2 mu)/rho0)` for a solid. A zero density on the rim gives infinity, unless
-    /// the law depends on the density.
+    /// Returns the largest speed (m/s) of a small-strain wave, `sqrt((lambda + 2 mu)/rho0)` for a
+    /// solid. Zero density gives infinity, unless the law depends on the density.
     pub fn wave_speed(&self) -> f64 {
         let speed = |density: f64| {
             let modulus = self.equation.modulus() * self.equation.density_factor(density);
@@ -123,8 +118,7 @@ impl Problem {
         speed(self.density.largest()).max(speed(self.density.smallest()))
     }
 
-    /// Returns the time (s) at which loads are evaluated: the end of the run for an equilibrium,
-    /// otherwise `t`.
+    /// Returns the time (s) at which loads are evaluated: the end of the run for an equilibrium.
     pub(super) fn loaded(&self, t: f64) -> f64 {
         if self.at_rest { self.until } else { t }
     }
@@ -140,8 +134,7 @@ impl Problem {
         complete_in_plane(self.plane, &self.equation, label, now);
     }
 
-    /// Computes the manufactured force (m/s2): `b = u_tt - Div P / rho0` minus the terms of the
-    /// loads.
+    /// Computes the manufactured force (m/s2), `b = u_tt - Div P / rho0` minus the loads.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
         let now = self.derivatives(label, t);
         let balance = self.balance(label, t, &now);
@@ -183,15 +176,13 @@ impl Problem {
         uniform.fold(0.0, |sum, term| sum + term.stated(i, &[], t, &[0.0; 3]))
     }
 
-    /// Returns component i of the prescribed forces (m/s2) that depend on position or on the
-    /// displacement `u` (m).
+    /// Returns component i of the prescribed forces (m/s2) that depend on position or displacement.
     pub(super) fn placed(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         let placed = self.terms.iter().filter(|term| !term.is_uniform());
         placed.fold(0.0, |sum, term| sum + term.stated(i, label, t, u))
     }
 
-    /// Returns component i of the forces that oppose the motion (m/s2); `stated` is the prescribed
-    /// force (m/s2).
+    /// Returns component i of the forces (m/s2) that oppose the motion; `stated` is prescribed.
     pub(super) fn resistance(
         &self,
         i: usize,
@@ -245,8 +236,7 @@ impl Problem {
         tensor(|i, j| piola[i][j] + initial[i][j])
     }
 
-    /// Computes the Cauchy stress (Pa) at the position `label` of this body, for the displacement
-    /// gradient `grad`.
+    /// Computes the Cauchy stress (Pa) of this body at `label` for the displacement gradient.
     pub(super) fn cauchy(&self, label: &[f64], grad: &Tensor<f64>) -> Tensor<f64> {
         if self.starts_strained() {
             return pushed_forward(&self.piola_from(grad, &self.initial_stress.at(label)), grad);
@@ -290,8 +280,7 @@ impl Problem {
         !self.initial_stress.is_none() && self.equation.piola_from(&zero, &zero).is_some()
     }
 
-    /// Computes P (Pa) of a body that [starts strained](Self::starts_strained). P is the initial
-    /// stress if the body is undeformed.
+    /// Computes P (Pa) of a body that [starts strained](Self::starts_strained).
     fn piola_from<T: Number>(&self, grad: &Tensor<T>, initial: &Tensor<T>) -> Tensor<T> {
         let uniaxial = self.equation.piola_from(grad, initial);
         let is_deformed = grad.iter().flatten().any(|component| *component != T::from(0.0));
@@ -325,9 +314,8 @@ impl Problem {
         self.equation.density_factor(self.density.at(label))
     }
 
-    /// Computes the terms of Div P (N/m3) that contain no derivatives, in a body of revolution:
-    /// `((P_rR - P_tT)/R, P_zR/R)` at the radius R (Malvern 1969, appendix II). Zero for other
-    /// bodies.
+    /// Computes the terms of Div P (N/m3) without derivatives in a body of revolution, `((P_rR -
+    /// P_tT)/R, P_zR/R)` at radius R (Malvern 1969, appendix II); zero for other bodies.
     pub(super) fn hoop_force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         if self.plane != PlaneState::Axisymmetric {
             return [0.0; 3];

@@ -1,7 +1,6 @@
 //! Reproducible random points: a suite is checked at the same positions on every machine.
 
-/// The random number generator `SplitMix64` (Steele, Lea & Flood 2014). Its quality is sufficient
-/// for scattering check points.
+/// The generator `SplitMix64` (Steele, Lea & Flood 2014), sufficient for scattered check points.
 #[derive(Debug, Clone)]
 pub struct Random(u64);
 

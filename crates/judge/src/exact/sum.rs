@@ -123,8 +123,7 @@ pub enum SumError {
 }
 
 impl BodySum {
-    /// Creates the sum of `density` over a `region` of the body of `problem`, with enough
-    /// quadrature points for the whole run.
+    /// Creates the sum of `density` over a `region`, with enough points for the whole run.
     ///
     /// # Errors
     /// If the sum is zero throughout the run, or if the quadrature does not converge.
@@ -174,8 +173,7 @@ impl BodySum {
         self.with_sizes(&[t])[0].0
     }
 
-    /// Computes the sum and its size at each of `times` (s). Terms that do not depend on time are
-    /// computed once for all `times`.
+    /// Computes the sum and its size at `times` (s), with terms of the position computed once.
     fn with_sizes(&self, times: &[f64]) -> Vec<ValueAndSize> {
         let mut sums = vec![([0.0; 3], 0.0); times.len()];
         for sites in self.sites.chunk_by(|a, b| a.body == b.body) {
@@ -292,8 +290,7 @@ mod tests {
         }
     }
 
-    /// A line with density 2 + X is stretched by 1 + t from the origin, so `sum m x^2` is (1 + t)^2
-    /// times `int (2 + X) X^2 dX` = 11/12.
+    /// With density 2 + X and stretch 1 + t, `sum m x^2` is (1 + t)^2 `int (2 + X) X^2 dX` = 11/12.
     #[test]
     fn second_moments_use_the_local_density() {
         let density = Density::of_place(bind("2 + X", &["X"]), &[0.0], &[1.0], None).unwrap();

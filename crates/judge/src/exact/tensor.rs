@@ -6,8 +6,7 @@ use super::formula::Number;
 /// uniaxial strain: its components along the other axes are zero.
 pub(super) type Tensor<T, const D: usize = 3> = [[T; D]; D];
 
-/// Maximum number of terms in [`log_strain`] and of iterations in [`rotation`]. Sufficient for
-/// stretches up to about ten.
+/// Maximum number of terms in [`log_strain`] and [`rotation`], for stretches up to about ten.
 const MOST_TERMS: i32 = 1000;
 
 #[inline]
@@ -23,8 +22,7 @@ pub(super) fn tensor<T: Number, const D: usize>(
     tensor
 }
 
-/// Returns the vector with these components. Loops over particles call this function, because
-/// `std::array::from_fn` is not always inlined.
+/// Returns the vector with these components, inlined, unlike `std::array::from_fn`.
 #[inline]
 pub(super) fn vector<T: Number, const D: usize>(component: impl Fn(usize) -> T) -> [T; D] {
     let mut vector = [T::from(0.0); D];
@@ -55,8 +53,7 @@ pub(super) fn unit<T: Number>(i: usize, j: usize) -> T {
     T::from(f64::from(u8::from(i == j)))
 }
 
-/// Computes the cofactor of f_ij: `F^-T = cof(F)/det(F)`. In fewer than three dimensions, F is
-/// extended by ones on the diagonal.
+/// Computes the cofactor of f_ij, `F^-T = cof(F)/det(F)`, with ones on the missing diagonal.
 #[inline]
 pub(super) fn cofactor<T: Number, const D: usize>(f: &Tensor<T, D>, i: usize, j: usize) -> T {
     match D {

@@ -13,8 +13,7 @@ pub trait Term: Debug + Send + Sync {
         0.0
     }
 
-    /// Whether the prescribed force depends neither on position nor on displacement. Such a force
-    /// is evaluated once per time.
+    /// Whether the prescribed force depends on time at most, and is evaluated once per time.
     fn is_uniform(&self) -> bool {
         false
     }
@@ -29,8 +28,7 @@ pub trait Term: Debug + Send + Sync {
         false
     }
 
-    /// Whether the load is a body force b. The check then compares b with the body force that the
-    /// motion requires.
+    /// Whether the load is a body force b, which the check compares with that of the motion.
     fn is_body_force(&self) -> bool {
         false
     }

@@ -167,8 +167,7 @@ fn correct_motion_passes(#[values(1, 2, 3)] dimension: usize) {
     held(dimension).check().unwrap();
 }
 
-/// The weak-form raster must also be fine enough for plane stress, where the thickness changes, and
-/// for bodies of revolution.
+/// The raster must also be fine enough for plane stress and for bodies of revolution.
 #[rstest]
 fn correct_motion_passes_in_any_plane_state(
     #[values(
@@ -337,9 +336,8 @@ fn a_traction_may_depend_on_the_place() {
     assert_violated(found, "boundary condition: top is loaded, traction in X");
 }
 
-/// A cube under uniform pressure shrinks equally on all sides, `P N = -p J F^-T N`. With a stretch
-/// s, the area of a face is s^2 times the reference area. A dead load does not change with this
-/// area.
+/// A cube under uniform pressure shrinks equally on all sides, `P N = -p J F^-T N`. The area of a
+/// face is s^2 times the reference area; a dead load does not change with it.
 #[test]
 fn pressure_acts_on_the_current_area() {
     let names = ["X", "Y", "Z", "t"];
@@ -428,8 +426,7 @@ fn equilibrium_is_checked_with_the_loads_at_the_end() {
     assert_violated(momentum(&weak), "momentum balance");
 }
 
-/// A pipe under internal pressure is free outside: `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`.
-/// Only the inner rim has a residual traction.
+/// A pipe under internal pressure, `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`, is free outside.
 #[test]
 fn what_is_left_is_the_largest_of_all_rims() {
     let names = ["X", "Y", "t"];

@@ -2,12 +2,10 @@
 
 /// A known solution: closed form, manufactured, or a much finer computation.
 pub trait Truth: Send + Sync {
-    /// Writes the D components of the displacement (m) of the point with reference position `label`
-    /// at time `t` (s).
+    /// Writes the D components of the displacement (m) of the point `label` at time `t` (s).
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]);
 
-    /// Writes the displacements (m) of all points with reference positions `labels`. `labels` and
-    /// `into` contain `d` numbers for each point.
+    /// Writes the displacements (m) of all points `labels`, with `d` numbers for each point.
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
         for (label, into) in labels.chunks(d).zip(into.chunks_mut(d)) {
             self.displacement(label, t, into);
@@ -17,8 +15,7 @@ pub trait Truth: Send + Sync {
     /// Writes the D components of the velocity (m/s) of the point with reference position `label`.
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]);
 
-    /// Writes the deformation gradient F, D * D numbers, row by row. If the solution does not
-    /// define F, returns false and writes nothing.
+    /// Writes the deformation gradient F row by row. Returns false, without writing, if undefined.
     fn deformation_gradient(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         let _ = (label, t, into);
         false

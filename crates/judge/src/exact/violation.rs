@@ -15,16 +15,14 @@ pub struct Violation {
     pub expected: Option<f64>,
     /// Value of the solution.
     pub found: f64,
-    /// Difference that the tolerance of the problem allows; `None` for a condition without
-    /// tolerance.
+    /// Difference that the tolerance allows; `None` for a condition without tolerance.
     pub allowed: Option<f64>,
     /// Unit of the values.
     pub unit: &'static str,
 }
 
-/// Collects violations and stores the one that is largest relative to its tolerance. A violation of
-/// the same condition replaces the stored one if it is 1 % larger. A violation of another condition
-/// must be ten times larger.
+/// Stores the violation that is largest relative to its tolerance. Another violation of the same
+/// condition must be 1 % larger, of another condition ten times larger.
 #[derive(Debug, Default)]
 pub(super) struct LargestViolation(Option<Violation>);
 

@@ -96,8 +96,7 @@ pub fn judge_case<R: Reruns>(
     }
 }
 
-/// Describes the errors of a case without requirement, if all are rounding errors. They have no
-/// order, except by chance.
+/// Describes the errors of a case without requirement if all are rounding errors, without order.
 fn rounding_without_order<R: Reruns>(
     plan: &JudgePlan<'_>,
     gate: Option<&GateResult>,
@@ -221,8 +220,7 @@ fn headline(
     (within.to_owned(), figures + &judged)
 }
 
-/// Estimates the limit of the displacement at the observed point in 1-D; `None` with fewer than two
-/// displacements.
+/// Estimates the limit of the 1-D displacement at the observed point, from two values or more.
 fn observed_limit(levels: &[LevelOutcome]) -> Option<Result<LimitEstimate, EstimateRefusal>> {
     let point = |level: &LevelOutcome| match level.run.displacement.as_deref() {
         // One component of several does not represent the displacement.

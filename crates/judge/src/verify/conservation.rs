@@ -1,9 +1,8 @@
 //! Changes of conserved sums during a run without external forces.
 //!
-//! A drift is the largest change of a sum since t = 0, over all instants, relative to a scale. For
-//! a mass or an energy, the scale is the largest value during the run. For a momentum, which may be
-//! zero, the scale is the largest sum of the magnitudes of the particle momenta. The energy is NaN
-//! for a law without stored energy.
+//! A drift is the largest change of a sum since t = 0, relative to a scale: the largest value of a
+//! mass or an energy during the run, or the largest sum of the magnitudes of the particle momenta
+//! for a momentum, which may be zero. The energy is NaN for a law without stored energy.
 
 use super::error::norm::larger;
 use mpm_subject::Totals;
@@ -87,8 +86,7 @@ impl Balance {
         balance
     }
 
-    /// Includes the totals of an instant. All drifts become NaN if the solver stops reporting
-    /// totals.
+    /// Includes the totals of an instant. All drifts become NaN if the solver reports none.
     pub(super) fn look(&mut self, now: Option<&Totals>) {
         for (i, sum) in Conserved::ALL.iter().enumerate() {
             let (before, _) = sum.of(&self.start);
@@ -102,8 +100,7 @@ impl Balance {
         }
     }
 
-    /// Returns the largest changes relative to their scales. The drift is zero if change and scale
-    /// are both zero.
+    /// Returns the largest changes relative to their scales; zero if both are zero.
     pub(super) fn drift(&self) -> ConservationError {
         let relative = |change: f64, size: f64| if change == 0.0 { 0.0 } else { change / size };
         ConservationError(std::array::from_fn(|i| relative(self.change[i], self.size[i])))

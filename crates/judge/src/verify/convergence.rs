@@ -27,14 +27,12 @@ pub struct Convergence {
     pub compared: bool,
     /// Whether steps advance time or the load.
     pub steps: StepKind,
-    /// Whether the case has bounds on measured values only, and no expected order. Every usable
-    /// level then counts.
+    /// Whether the case has bounds on measured values only. Every usable level then counts.
     pub bounded: bool,
     /// Reason why an external solver meets the requirement of `run --gate`, if it does. A case
     /// without requirement is accepted only if all its errors are rounding errors.
     pub accepted: Option<Acceptance>,
-    /// Remarks of `run --gate`: the rounding bound, an order far above the required one, and a
-    /// shorter time step that restored the order.
+    /// Remarks of `run --gate`: rounding bound, order far above theory, shorter time step.
     pub remarks: Vec<String>,
     /// Conserved sums with a reported drift.
     pub drifts: Vec<Conserved>,
@@ -72,9 +70,8 @@ pub struct LevelOutcome {
     pub error: f64,
     /// Whether the level may count for the verdict.
     pub usable: bool,
-    /// Bound on the rounding error in the judged norm, in the unit of the judged quantity, if a
-    /// solver in single precision is judged by its displacement, or if `run --gate` has a
-    /// requirement for the case.
+    /// Bound on the rounding error in the judged norm, in the unit of the judged quantity, for
+    /// single precision judged by displacement, or if `run --gate` has a requirement.
     pub rounding_bound: Option<f64>,
     /// Whether the displacement error (m) is smaller than `rounding_bound`.
     pub is_below_rounding: bool,

@@ -47,8 +47,7 @@ mod tests {
     use approx::{assert_abs_diff_eq, assert_relative_eq};
     use rstest::rstest;
 
-    /// Creates `n` instants with a given energy, which alternates between kinetic and stored
-    /// energy.
+    /// Creates `n` instants whose energy alternates between kinetic and stored energy.
     fn account(n: usize, energy: impl Fn(f64) -> f64) -> Vec<(f64, Totals)> {
         let at = |i: usize| {
             let (t, share) = (i as f64, (i % 3) as f64 / 2.0);

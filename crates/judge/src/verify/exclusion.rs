@@ -25,12 +25,10 @@ named! {
     }
 }
 
-/// Returns the distance (m) between `largest`, the largest absolute coordinate (m) of a particle,
-/// and the next smaller single-precision number. `None` if `largest` is zero or not a normal number
-/// in single precision.
+/// Returns the distance (m) between `largest`, the largest absolute coordinate (m), and the next
+/// smaller single-precision number. `None` unless it is a normal number in single precision.
 pub fn single_precision_spacing(largest: f64) -> Option<f64> {
-    // The coordinate is rounded first. A coordinate of 1 + 1e-16, for example, is 1 in single
-    // precision.
+    // The coordinate is rounded first: 1 + 1e-16, for example, is 1 in single precision.
     let largest = largest as f32;
     let is_normal = largest.is_normal() && largest > 0.0;
     is_normal.then(|| f64::from(largest) - f64::from(largest.next_down()))

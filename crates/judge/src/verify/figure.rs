@@ -102,8 +102,7 @@ macro_rules! case_figures {
                 }
             }
 
-            /// Computes the value from the levels of a case; `None` if the levels do not have the
-            /// value.
+            /// Computes the value from the levels of a case; `None` if they do not have it.
             pub fn value(self, levels: &[LevelOutcome]) -> Option<f64> {
                 match self {
                     $(Self::$member => $value(levels),)+
@@ -253,14 +252,12 @@ impl RunFigure {
         Self::ALL.iter().copied().find(|figure| figure.name() == name)
     }
 
-    /// Whether the value concerns the null space of the map to the grid. Such values are computed
-    /// only on request.
+    /// Whether the value concerns the null space of the map to the grid, computed on request only.
     pub fn is_of_null_space(self) -> bool {
         matches!(self, Self::NullShare | Self::LargestNullShare)
     }
 
-    /// Whether the value is part of the energy ledger, the energy change by each stage of a step.
-    /// The ledger is recorded only on request.
+    /// Whether the value is part of the energy ledger, which is recorded only on request.
     pub fn is_of_ledger(self) -> bool {
         self as usize >= Self::LedgerGap as usize
     }

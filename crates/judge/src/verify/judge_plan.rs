@@ -120,8 +120,7 @@ impl JudgePlan<'_> {
         judge(levels, &OrderHypothesis { formal_order, expected, axis })
     }
 
-    /// Returns the reason why `run --gate` requires nothing of a case with these levels; `None` if
-    /// it requires something.
+    /// Returns the reason why `run --gate` requires nothing of a case, if it requires nothing.
     pub(super) fn exemption(&self, levels: &[LevelOutcome]) -> Option<String> {
         match self.gating {
             Some(Gating::NotGated(reason)) => Some(reason.clone()),

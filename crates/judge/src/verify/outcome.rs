@@ -29,8 +29,7 @@ pub struct SuiteOutcome {
 }
 
 impl SuiteOutcome {
-    /// Appends the cases of `other` to `joined`. `other` is a run of the same suite with another
-    /// solver.
+    /// Appends the cases of `other`, a run of the same suite with another solver, to `joined`.
     pub fn join(joined: &mut Option<Self>, other: Self) {
         match joined {
             None => *joined = Some(other),
@@ -78,8 +77,7 @@ pub struct CaseOutcome {
     pub lacks: Vec<String>,
     /// Reason why `run --gate` has no requirement for the case; `None` if it has one.
     pub exemption: Option<Exemption>,
-    /// Results of the study. `None` if the case could not be set up; `reason` then has the
-    /// explanation.
+    /// Results of the study; `None` if the case could not be set up, as `reason` explains.
     pub study: Option<StudyResults>,
 }
 
@@ -100,8 +98,7 @@ named! {
     }
 }
 
-/// Reason why `run --gate` has no requirement for a case. The explanation is in
-/// [`CaseOutcome::reason`].
+/// Reason why `run --gate` requires nothing of a case; [`CaseOutcome::reason`] explains it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exemption {
     /// The suite cannot test the requirement.
@@ -139,8 +136,7 @@ impl CaseOutcome {
         self.unmet.is_empty()
     }
 
-    /// Whether the case has been tested: it applies to the solver, and `run --gate` does not exempt
-    /// it.
+    /// Whether the case applies to the solver and is not exempted by `run --gate`.
     pub fn is_tested(&self) -> bool {
         self.lacks.is_empty() && self.exemption.is_none()
     }
@@ -249,8 +245,7 @@ impl CaseOutcome {
         }
     }
 
-    /// Converts the outcome to that of a case that the author of its solver excludes from
-    /// `run --gate`.
+    /// Converts the outcome to that of a case that the solver's author excludes from `run --gate`.
     #[must_use]
     pub fn excepted(self, reason: String) -> Self {
         let (verdict, exemption) = ("not run".to_owned(), Some(Exemption::Excepted));

@@ -27,15 +27,13 @@ pub trait Reruns: Sync {
     fn run_halved(&self, level: &LevelOutcome, axis: Axis)
     -> Option<Result<LevelRun, Self::Error>>;
 
-    /// Runs the level with the time step `dt` (s), and repeats the run as often as for the other
-    /// levels of the case.
+    /// Runs the level with the time step `dt` (s), as often as the other levels of the case.
     ///
     /// # Errors
     /// If the level cannot be set up.
     fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelRun, Self::Error>;
 
-    /// Returns the sizes of the numbers that the solver rounds; `None` if the judged quantity has
-    /// no natural size.
+    /// Returns sizes of numbers that the solver rounds; `None` without a natural size.
     fn rounding(&self) -> Option<RoundingSizes>;
 }
 
@@ -115,8 +113,7 @@ pub(super) fn gate<R: Reruns>(
     }
 }
 
-/// Tries to meet the requirement with shorter steps. Returns the acceptance with a remark; `None`
-/// if no step meets it.
+/// Tries to meet the requirement with shorter steps. Returns the acceptance with a remark.
 fn shorten<R: Reruns>(
     plan: &JudgePlan<'_>,
     required: &Requirement,
@@ -131,8 +128,7 @@ fn shorten<R: Reruns>(
         let shorter = |level: &LevelOutcome| {
             reruns.run_with_step(level, share * level.dt).map(|run| plan.level(run))
         };
-        // A run of the finest level is sufficient to show whether the time step contributes to the
-        // error.
+        // The finest level alone shows whether the time step contributes to the error.
         let finest = shorter(last).ok()?;
         if !(finest.error <= (1.0 - LEAST_FALL) * before) {
             return None;
@@ -163,9 +159,8 @@ fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
         && first.dt < last.dt * libm::pow(first.h / last.h, FOLLOWS)
 }
 
-/// Estimates the error due to rounding, in the judged norm and relative to the judged scale:
-/// rounding errors of the largest number from which the judged quantity is computed are added like
-/// the steps of a random walk.
+/// Estimates the rounding error in the judged norm and relative to the judged scale: the steps of a
+/// random walk of the largest number from which the quantity is computed.
 pub(super) fn rounding<R: Reruns>(
     plan: &JudgePlan<'_>,
     levels: &[LevelOutcome],

@@ -11,8 +11,7 @@ use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 use std::cell::Cell;
 
-/// Checks every face of the body at random points and times. Returns the largest traction residual,
-/// relative to the stress.
+/// Checks all faces at random events. Returns the largest traction residual relative to the stress.
 pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     conditions(problem, &problem.faces, survey)
 }
@@ -29,8 +28,7 @@ pub(super) fn conditions(
         let on_face = OnFace::new(&problem.from, &problem.to, face.axis, face.high);
         let extent = on_face.extent(&survey::extent(problem));
         let mut found = LargestViolation::default();
-        // All axes are sampled, because a load may vary along an axis on which the motion is
-        // constant.
+        // All axes are sampled: a load may vary along an axis on which the motion is constant.
         for event in extent.spread(survey.face_events, |_| true, &mut random) {
             let now = problem.derivatives(&event.label, event.t);
             let (sizes, left) = (&survey.largest, &left);

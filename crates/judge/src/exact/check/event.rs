@@ -89,8 +89,7 @@ pub(crate) fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
 }
 
-/// Returns the magnitude of the residual `left`, divided by `size`, which has the same unit; 0 if
-/// `left` is 0.
+/// Returns the magnitude of the residual `left` relative to `size`; 0 if `left` is 0.
 pub(super) fn share(left: f64, size: f64) -> f64 {
     if left == 0.0 { 0.0 } else { left.abs() / size }
 }
@@ -98,8 +97,7 @@ pub(super) fn share(left: f64, size: f64) -> f64 {
 /// Number of events in a body if only a small part of it has large terms.
 pub(crate) const EVENTS: usize = 4096;
 
-/// Number of events on a face, or on another part with fewer dimensions than the body, if only a
-/// small part of the body has large terms.
+/// Number of events on a face, or another part of fewer dimensions, in the same case.
 pub(crate) const FACE_EVENTS: usize = 1024;
 
 /// Divisor of [`EVENTS`] and [`FACE_EVENTS`] if terms are large in a large part of the body.
@@ -152,8 +150,7 @@ pub(crate) struct OnFace {
 }
 
 impl OnFace {
-    /// Returns a face of the box from `from` to `to` normal to `axis`: the upper face if `high`,
-    /// otherwise the lower face.
+    /// Returns the upper (`high`) or lower face of the box that is normal to `axis`.
     pub(crate) fn new(from: &[f64], to: &[f64], axis: usize, high: bool) -> Self {
         let (mut from, mut to) = (from.to_vec(), to.to_vec());
         if high {

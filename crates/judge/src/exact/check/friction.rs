@@ -85,8 +85,7 @@ mod tests {
     use rstest::rstest;
 
     /// Creates a layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and
-    /// lambda = 0. The layer sticks to the wall or slides with friction; shear and pressure
-    /// increase towards the wall.
+    /// lambda = 0, that sticks to the wall or slides. Shear and pressure increase towards the wall.
     fn layer(coefficient: f64, motion: [&str; 2]) -> Problem {
         let wall = Demands::condition(move |point| point.friction(coefficient));
         Problem {
@@ -102,8 +101,7 @@ mod tests {
 
     /// Vertical displacement of a layer settled under its own weight; the wall pressure is 4.
     const SETTLED: &str = "4/200*(Y^2/2 - Y)";
-    /// Displacement along the wall of a sliding layer. The tangential force is 3, and the friction
-    /// is 2 (mu = 1/2).
+    /// Displacement along the wall of a sliding layer. The force is 3, the friction 2 (mu = 1/2).
     const SLIDES: &str = "t^2/2 - 2/100*(Y^2/2 - Y)";
     const STAYS: &str = "-3/100*(Y^2/2 - Y)";
 

@@ -1,13 +1,11 @@
 //! Checks the interface of two bodies at points of their faces.
 //!
 //! Bodies with one velocity field are bonded: displacement and traction are continuous across
-//! common faces. Bodies in contact do not penetrate each other, and no tension acts between them.
-//! Pressure acts only where they touch; tractions are equal and opposite, and friction resists
-//! sliding.
+//! common faces. Bodies in contact do not penetrate each other. They push but do not pull where
+//! they touch, with equal and opposite tractions, and friction resists sliding.
 //!
-//! If one formula describes several bodies, it may jump at their interface. The motion at the face
-//! is therefore expanded about a point inside the body, at a distance of 1e-9 body lengths from the
-//! face.
+//! A formula that describes several bodies may jump at their interface. The motion at the face is
+//! therefore expanded about a point 1e-9 body lengths inside the body.
 
 use super::event::{AXES, Event, FACE_EVENTS, OnFace};
 use super::friction::{InterfaceTraction, coulomb};
@@ -18,8 +16,7 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
-/// Condition on a face next to another body. For one body alone nothing is checked; [`meets`]
-/// checks both bodies together.
+/// Condition on a face next to another body, which [`meets`] checks for both bodies together.
 #[derive(Debug)]
 pub struct Interface;
 

@@ -50,9 +50,8 @@ impl Problem {
         boundary::conditions(self, std::slice::from_ref(face), survey).err()
     }
 
-    /// Returns the largest relative residual of the conditions that involve the law: the equation
-    /// of motion, and tractions on faces and rims. NaN if another condition is violated, or if the
-    /// residual is not finite.
+    /// Returns the largest relative residual of the equation of motion and of tractions on faces
+    /// and rims. NaN if another condition is violated, or if the residual is not finite.
     pub fn residual(&self) -> f64 {
         let problems =
             if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies };

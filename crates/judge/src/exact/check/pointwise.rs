@@ -1,7 +1,6 @@
 //! Checks of a motion at points: initial conditions, equation of motion, rims and loading path.
 //!
-//! A rim is the boundary of a body that is not a box. There `P n = 0` or, under a pressure p,
-//! `P n = -p J F^-T n`.
+//! A rim is the boundary of a body that is not a box. With a pressure p, `P n = -p J F^-T n` there.
 //!
 //! For laws with history, exact solutions are valid only under monotonic loading.
 
@@ -105,9 +104,8 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     found.into_result().map(|()| left)
 }
 
-/// Returns the rounding error (N/m3) of the hoop term `(P_rR - P_tT)/R` of Div P. At a uniform
-/// stretch both stresses are equal, and no second derivative gives a scale. Zero except in a body
-/// of revolution.
+/// Returns the rounding error (N/m3) of the hoop term `(P_rR - P_tT)/R` in a body of revolution,
+/// for which a uniform stretch gives no other scale. Zero in other bodies.
 fn hoop_rounding(problem: &Problem, survey: &Survey, event: &Event) -> f64 {
     match problem.plane {
         PlaneState::Axisymmetric => ROUNDING * survey.largest.stress / event.label[0],

@@ -1,5 +1,4 @@
-//! Space-time patches, with a bump function as test function and with the points of the midpoint
-//! rule.
+//! Space-time patches with a bump function as test function, and the points of the midpoint rule.
 
 use super::event::Event;
 use crate::exact::random::Random;
@@ -91,8 +90,7 @@ impl SpaceTimePatch {
     /// assumed to have the density given by `largest` everywhere in the patch.
     pub(super) fn largest_sum(&self, largest: &Densities, per_axis: usize) -> f64 {
         let d = self.dimension();
-        // On one axis, the bump has the integral 32/35, and the magnitude of its slope has the
-        // integral 2.
+        // On one axis, the bump has the integral 32/35, and the magnitude of its slope 2.
         let points = per_axis as f64;
         let mean: f64 = (0..d).map(|_| 16.0 / 35.0 * points).product();
         let slope = |axis: usize| mean * points / self.half[axis];
@@ -139,8 +137,7 @@ pub(crate) struct Raster {
     pub(crate) times: Vec<AxisPoint>,
 }
 
-/// A position on one axis of a patch, with the factor `(1 - xi^2)^3` of phi and the derivative of
-/// this factor.
+/// A position on one axis of a patch, with the factor `(1 - xi^2)^3` of phi and its derivative.
 #[derive(Clone, Copy)]
 pub(crate) struct AxisPoint {
     pub(crate) at: f64,

@@ -112,8 +112,7 @@ pub(crate) struct SurveyPoint {
     sizes: Magnitudes,
 }
 
-/// The motion of a problem at many events (positions with times), and the largest magnitudes of its
-/// terms.
+/// The motion of a problem at many events (positions with times), and its largest terms.
 #[derive(Debug)]
 pub struct Survey {
     /// Evenly distributed events, followed by those close to the largest terms.
@@ -212,8 +211,7 @@ fn is_broad(points: &[SurveyPoint], quantity: usize) -> bool {
     active as f64 >= RESOLVED * points.len() as f64
 }
 
-/// Adds events close to those at which a quantity is at least half of its maximum. Each round uses
-/// smaller distances.
+/// Adds events near those where a quantity is at least half its maximum, ever closer in each round.
 fn concentrate(
     problem: &Problem,
     points: &mut Vec<SurveyPoint>,

@@ -6,8 +6,7 @@
 //! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`. For a body of revolution, dX
 //! is replaced by `R dX`, and `P_tT phi` is subtracted in the radial component.
 //!
-//! If the motion does not vary along an axis, it is evaluated once for all raster points that
-//! differ only along this axis.
+//! The motion is evaluated once for points that differ only along axes without variation.
 
 use super::space_time_patch::{AxisPoint, Densities, Raster, SpaceTimePatch, bump, labels};
 use super::survey::{Magnitudes, Survey};
@@ -31,8 +30,7 @@ pub(crate) fn patches(smooth: bool) -> usize {
 /// jump that runs obliquely through the raster is about 0.001.
 const TOLERANCE: f64 = 0.005;
 
-/// Maximum duration of a patch, in wave transit times through the body. The raster does not resolve
-/// longer durations.
+/// Maximum duration of a patch that the raster resolves, in wave transit times through the body.
 const WAVES: f64 = 4.0;
 
 /// Returns the transit time of a wave along the longest axis of the body (s).
@@ -159,15 +157,13 @@ impl Sums {
         (self.gain - self.loss) / self.size.max(self.smallest)
     }
 
-    /// Whether gain and loss differ by at most the fraction `share` of the sum of the magnitudes of
-    /// all terms.
+    /// Whether gain and loss differ by at most `share` of the sum of the magnitudes of all terms.
     fn imbalance_within(&self, share: f64) -> bool {
         (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
     }
 
-    /// Whether the imbalance exceeds [`TOLERANCE`] and hardly differs from the imbalance of a
-    /// `coarse` raster with half as many points per axis. `share` is the number of coarse points
-    /// divided by the number of fine points.
+    /// Whether the imbalance exceeds [`TOLERANCE`] and hardly differs from that of a `coarse`
+    /// raster with half as many points per axis, a fraction `share` of the fine points.
     fn has_settled(&self, coarse: &Self, share: f64) -> bool {
         let (fine, before) = (self.imbalance(), coarse.imbalance());
         let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;
@@ -216,8 +212,7 @@ fn balance(
     })
 }
 
-/// Sums the terms of the momentum balance over a raster. With `only_first`, only first derivatives
-/// of the motion are computed.
+/// Sums the terms of the momentum balance, with first derivatives only if `only_first`.
 fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> [Sums; 3] {
     let d = problem.dimension();
     let Raster { points, times } = raster;
@@ -257,8 +252,7 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
     all
 }
 
-/// Distinct positions of a raster. Raster points share a position if they differ only along axes
-/// along which the motion does not vary.
+/// Distinct positions of a raster. Points that differ only along axes without variation share one.
 pub(super) struct DistinctPlaces {
     /// The first raster point at each position.
     pub(super) first: Vec<usize>,
@@ -267,8 +261,7 @@ pub(super) struct DistinctPlaces {
 }
 
 impl DistinctPlaces {
-    /// Finds the distinct positions of a raster of `count` points, with `per_axis` points along
-    /// each axis; the first axis varies fastest.
+    /// Finds the positions of `count` points, `per_axis` on each axis; the first varies fastest.
     pub(super) fn new(motion: &Motion, count: usize, per_axis: usize) -> Self {
         let varying: Vec<bool> =
             (0..motion.dimension()).map(|axis| motion.varies_along(axis)).collect();
@@ -284,8 +277,7 @@ impl DistinctPlaces {
     }
 }
 
-/// Returns the index of a raster point in the raster reduced to the axes along which the motion
-/// varies.
+/// Returns the index of a point in the raster reduced to the axes along which the motion varies.
 fn place(mut point: usize, per_axis: usize, varying: &[bool]) -> usize {
     let (mut place, mut stride) = (0, 1);
     for varies in varying {

@@ -6,12 +6,10 @@ use super::jet::Jet;
 use super::number::Number;
 use crate::exact::motion::variables;
 
-/// Formulas with at most this number of operations (counted with unrolled sums) are precomputed for
-/// each position.
+/// Maximum number of operations (with unrolled sums) of formulas precomputed for each position.
 const MAX_OPERATIONS: u64 = 5000;
 
-/// Formulas of the coordinates, t and optionally the displacement, one for each component, at fixed
-/// positions.
+/// Formulas of the coordinates, t and optionally the displacement, at fixed positions.
 pub struct FormulaForce {
     formulas: Vec<Formula>,
     labels: Vec<Vec<f64>>,

@@ -2,10 +2,9 @@
 //!
 //! The steps of a program are split by their dependence: on position, on time, or on both.
 //!
-//! Sums are unrolled and registers are renamed. Each step is then a node that is computed once
-//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on position or
-//! time if one of its arguments does. The split does not change the operations that lead to a
-//! number, so values are bit-identical.
+//! Sums are unrolled and registers are renamed, so each step is a node that is computed once
+//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on what its
+//! arguments depend on. The operations that lead to a number, and its bits, do not change.
 
 use super::bound::Formula;
 use super::builtin::Binary;
@@ -13,8 +12,7 @@ use super::number::Number;
 use super::program::{Action, Instruction, Operand, read, run};
 use std::collections::BTreeMap;
 
-/// Formulas of the same variables (coordinates, then time), evaluated at fixed positions for many
-/// times.
+/// Formulas of the same variables (coordinates, then time) at fixed positions for many times.
 ///
 /// Terms that depend only on position are computed once per position, and terms that depend only on
 /// time once per time. The values are bit-identical to those of [`Formula::eval`].
@@ -31,8 +29,7 @@ pub struct Hoisted<T> {
 }
 
 impl<T: Number> Hoisted<T> {
-    /// Splits formulas that have the given number of `variables`. Sums are unrolled, so a formula
-    /// has [`Formula::operations`] steps.
+    /// Splits formulas of this many `variables` into [`Formula::operations`] steps, without sums.
     ///
     /// # Panics
     /// If a formula has a different number of variables.
@@ -101,8 +98,7 @@ const BOTH: Dependence = 3;
 #[derive(Default)]
 struct Nodes {
     list: Vec<SsaNode>,
-    /// Node indices, with the text of the node as key. Unlike `==`, the text distinguishes 0 from
-    /// -0.
+    /// Node indices by the text of the node, which distinguishes 0 from -0, unlike `==`.
     known: BTreeMap<String, usize>,
 }
 
@@ -276,8 +272,7 @@ impl Homes {
 }
 
 /// Returns the part that computes an input of `reader`. A constant is computed in the part that
-/// uses it, with one exception: the part `time` computes the constants for `rest`, which runs most
-/// often.
+/// uses it, except that the part `time` computes those of `rest`, which runs most often.
 fn home(dependence: Dependence, reader: Dependence) -> Dependence {
     match (dependence, reader) {
         (NOTHING, BOTH) => TIME,

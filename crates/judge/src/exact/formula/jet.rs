@@ -5,16 +5,14 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::number::{Number, whole};
 use super::unary::Unary;
 
-/// A value with its first and second derivatives with respect to `N` variables, for example the
-/// coordinates of a point and the time.
+/// A value with its first and second derivatives by `N` variables, such as coordinates and time.
 ///
 /// The chain rule is applied exactly, without differences. `max`, `min`, `abs`, `sign`, `step` and
 /// `floor` are differentiated on the selected branch, as if there were no kink or jump. Other
 /// undefined derivatives, such as the derivative of `sqrt` at 0, are infinite or NaN.
 pub type Jet<const N: usize> = Dual<N, [[f64; N]; N]>;
 
-/// A value with its first derivatives along `N` directions: a [`Jet`] without second derivatives,
-/// at a third of the cost.
+/// A value with its first derivatives along `N` directions, at a third of the cost of a [`Jet`].
 ///
 /// Results are bit-identical to those of a jet, with one exception: if the derivative of a function
 /// is infinite, a gradient component of zero becomes NaN.
@@ -268,8 +266,7 @@ impl<const N: usize, H: Hessian<N>> Number for Dual<N, H> {
     }
 
     fn atan2(self, x: Self) -> Self {
-        // The derivatives are computed as those of atan(y/x), or of -atan(x/y) if that is
-        // numerically safer.
+        // Derivatives are those of atan(y/x), or of -atan(x/y) if that is numerically safer.
         let quotient = if libm::fabs(x.value) >= libm::fabs(self.value) {
             (self / x).unary(Unary::Atan)
         } else {
@@ -285,8 +282,7 @@ impl<const N: usize, H: Hessian<N>> Number for Dual<N, H> {
         if exponent < 0 && value.abs() < TINY {
             return Self::from(value);
         }
-        // Derivatives of x^0 and x^1 that vanish are set to 0, because the general rule would give
-        // 0 times infinity at x = 0.
+        // For x^0 and x^1, the general rule would give 0 times infinity at x = 0.
         let first = if exponent == 0 { 0.0 } else { n * power(self.value, n - 1.0) };
         self.chain(value, first, || match exponent {
             0 | 1 => 0.0,

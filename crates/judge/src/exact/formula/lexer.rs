@@ -58,8 +58,7 @@ fn continues_name(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// A position in the source, which is always on a character boundary, because only ASCII is
-/// consumed.
+/// A position in the source, always on a character boundary, because only ASCII is consumed.
 struct Lexer<'a> {
     source: &'a str,
     at: usize,
@@ -187,8 +186,7 @@ pub struct FormulaError {
     pub span: Range<usize>,
     /// A correction, if known.
     pub help: Option<String>,
-    /// The user function whose body contains the error; `None` if the error is in the formula
-    /// itself.
+    /// The user function whose body contains the error; `None` for the formula itself.
     pub within: Option<String>,
     /// The name that is not declared; `None` for other errors.
     pub unknown: Option<String>,

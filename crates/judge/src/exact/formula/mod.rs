@@ -30,8 +30,7 @@
 //! # Hostile input
 //!
 //! Length, number of tokens, depth, size after inlining and number of operations are limited.
-//! Formulas above a limit give a [`FormulaError`] and never cause a stack overflow or an endless
-//! loop.
+//! Formulas above a limit give a [`FormulaError`], never a stack overflow or an endless loop.
 //!
 //! ```
 //! use mpm_judge::exact::formula::{Expr, Formula, Jet, Scope};

@@ -142,15 +142,13 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// The values of one formula at several positions and times. An evaluation decodes each instruction
-/// once per batch, and the compiler vectorises sums and products. Each number is bit-identical to
-/// an evaluation in `f64`.
+/// The values of one formula at several positions and times. Each instruction is decoded once per
+/// batch. Each number is bit-identical to an evaluation in `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NumberBatch([f64; NumberBatch::LEN]);
 
 impl NumberBatch {
-    /// Number of values per batch. In a batch of this size, decoding an instruction costs little
-    /// compared with the operations.
+    /// Number of values per batch, so many that decoding an instruction costs little.
     pub const LEN: usize = 8;
 
     /// Creates a batch; `number` returns the value of each lane.

@@ -198,8 +198,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Adds a node for a name that has a value; a call of this name is an error. `role` describes
-    /// the name in the error message.
+    /// Adds a node for a name with a value. A call of it is an error, which states its `role`.
     fn plain(
         &mut self,
         kind: NodeKind,

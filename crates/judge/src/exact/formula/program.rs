@@ -90,8 +90,7 @@ pub(super) fn run<T: Number>(
             Action::Unary(function, a) => registers[*to] = operand!(a, one).unary(*function),
             Action::Binary(function, a, b) => {
                 let (a, b) = (operand!(a, one), operand!(b, other));
-                // Each branch writes directly to the register, because a common temporary would be
-                // copied.
+                // Each branch writes directly to the register; a common temporary would be copied.
                 match function {
                     Binary::Add => registers[*to] = *a + *b,
                     Binary::Subtract => registers[*to] = *a - *b,

@@ -84,8 +84,7 @@ impl Scope {
         scope
     }
 
-    /// Declares a function. Functions may be declared in any order, because a body is resolved only
-    /// when a formula that uses it is bound.
+    /// Declares a function. Bodies are resolved when a formula uses them, so any order is valid.
     ///
     /// # Errors
     /// When `name` or a parameter is invalid or taken, or when the index of a sum in the body is a
@@ -130,8 +129,7 @@ impl Scope {
     /// Checks that `name` is a valid name.
     ///
     /// # Errors
-    /// When `name` contains characters other than ASCII letters, digits and `_`, or begins with a
-    /// digit.
+    /// When `name` is not a letter or `_` followed by ASCII letters, digits and `_`.
     pub fn named(name: &str) -> Result<(), FormulaError> {
         if is_name(name) {
             return Ok(());

@@ -9,8 +9,7 @@ impl Formula {
     /// Whether the value is an analytic function of all real variables, without kinks and jumps.
     ///
     /// A quotient counts as smooth only if its divisor is constant, because for example `tanh(1/x)`
-    /// jumps where the divisor is zero. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not
-    /// count as smooth.
+    /// jumps. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not count as smooth.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
         let varies = |operand: &Operand| varies(*operand, &varying);

@@ -129,8 +129,7 @@ const E_REST: f64 = 1.445_646_891_729_250_2e-16;
 /// Below this argument, [`lambert_w`] is computed from its distance to the branch point.
 const NEAR_BRANCH: f64 = -0.25;
 
-/// Computes the principal branch of W, the solution `w >= -1` of w*exp(w) = x, for x >= -1/e; NaN
-/// otherwise.
+/// Computes the principal branch of W, `w >= -1` with w*exp(w) = x; NaN for x < -1/e.
 pub(super) fn lambert_w(x: f64) -> f64 {
     if x < NEAR_BRANCH {
         return above_branch_point(x) - 1.0;
@@ -149,9 +148,8 @@ pub(super) fn lambert_w(x: f64) -> f64 {
     w
 }
 
-/// Computes d = W + 1 for x from -1/e to -1/4. The equation (d - 1) exp(d) + 1 = e x + 1 determines
-/// d. Its left-hand side is the sum of (n - 1) d^n / n! from n = 2, so no digits cancel near the
-/// branch point. NaN for x < -1/e.
+/// Computes d = W + 1 for x from -1/e to -1/4 from (d - 1) exp(d) + 1 = e x + 1. The left side is
+/// the sum of (n - 1) d^n / n! from n = 2, so no digits cancel. NaN for x < -1/e.
 fn above_branch_point(x: f64) -> f64 {
     let (product, error) = product_with_error(std::f64::consts::E, x);
     let offset = (product + 1.0) + (error + E_REST * x);
@@ -183,8 +181,7 @@ fn product_with_error(a: f64, b: f64) -> (f64, f64) {
     (product, rest + a_low * b_low)
 }
 
-/// Returns the step of Halley's method for w*exp(w) - x. Dividing the equation by exp(w) avoids
-/// overflow for large `x`.
+/// Returns the step of Halley's method for w*exp(w) - x, divided by exp(w) to avoid overflow.
 fn halley(w: f64, x: f64) -> f64 {
     let residual = w - x * exp(-w);
     residual / (w + 1.0 - 0.5 * residual * (w + 2.0) / (w + 1.0))

@@ -60,8 +60,7 @@ fn initial(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violati
     let mut worst = LargestViolation::default();
     for event in start.spread(FACE_EVENTS, |_| true, &mut Random::new(2)) {
         let found = problem.temperature.at(&event.label, 0.0);
-        // Without a prescribed initial temperature, the exact one is compared with itself, which
-        // fails only if it is not finite.
+        // An initial temperature that is not prescribed is the exact one, which must be finite.
         let start = problem.initial.as_ref().map_or(found, |start| start.at(&event.label, 0.0));
         let name = "initial condition T(X, 0) = T0(X)".to_owned();
         let allowed = problem.tolerance * largest.value;
@@ -203,8 +202,7 @@ fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(),
     found.into_result()
 }
 
-/// Checks the heat balance on random patches. Terms that are far below the `largest` magnitudes are
-/// ignored.
+/// Checks the heat balance on random patches; terms far below the `largest` ones are ignored.
 pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violation> {
     let densities = Densities {
         stored: problem.density * problem.capacity * largest.range,
@@ -218,8 +216,7 @@ pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<
         let (from, to) = (&problem.from[..], &problem.to[..]);
         let patch = SpaceTimePatch::in_box(&mut random, from, to, problem.until, f64::INFINITY);
         let d = problem.dimension();
-        // A constant temperature is subtracted, because it would increase the scale of the
-        // imbalance.
+        // A constant temperature would increase the scale of the imbalance.
         let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
         let condition = "heat balance across kinks (the heat equation";
         balances(patch, condition, &densities, |raster, smallest| {
@@ -279,8 +276,7 @@ pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
     events.into_iter().map(point).collect()
 }
 
-/// The largest magnitudes of a temperature and of the terms of the heat equation; NaN if any is
-/// NaN.
+/// The largest magnitudes of a temperature and of the heat equation's terms; NaN if any is NaN.
 pub(super) struct HeatMagnitudes {
     pub(super) value: f64,
     /// Difference between highest and lowest temperature (K).

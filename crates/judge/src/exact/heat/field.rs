@@ -1,5 +1,4 @@
-//! A temperature T(X, t) given by a formula, with its derivatives, and the heat flux in a deformed
-//! body.
+//! A temperature T(X, t) given by a formula, its derivatives, and the heat flux in a deformed body.
 //!
 //! The heat flux refers to the reference configuration. Fourier's law holds in the current
 //! configuration, `q = -k grad T` per current area. Per reference area it is

@@ -1,5 +1,4 @@
-//! Heat problem of an exact temperature: body, thermal conditions on the faces, and a prescribed or
-//! manufactured heat source.
+//! Heat problem of an exact temperature: body, conditions on faces, and heat source.
 
 use super::field::{Temperature, TemperatureDerivatives, TemperaturePlaces, divergence, slope};
 use crate::exact::formula::Formula;
@@ -38,8 +37,7 @@ pub struct Conduction {
     pub capacity: f64,
     /// Heat source (W/kg), a formula that [`source_at`] evaluates.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates. If `None`, the run starts from the
-    /// exact temperature.
+    /// Initial temperature (K), a formula of the coordinates; `None` for the exact temperature.
     pub initial: Option<Formula>,
     /// All faces of the body.
     pub faces: Vec<HeatFace>,
@@ -67,8 +65,7 @@ impl Conduction {
         (motion, self.temperature.derivatives(label, t))
     }
 
-    /// Computes the source that the exact temperature requires,
-    /// `c T_t - Div (k J C^-1 Grad T)/rho0` (W/kg).
+    /// Computes the source (W/kg) of the temperature, `c T_t - Div (k J C^-1 Grad T)/rho0`.
     pub(super) fn balance(&self, motion: &Derivatives, now: &TemperatureDerivatives) -> f64 {
         self.capacity * now.rate
             - self.conductivity * divergence(self.dimension(), motion, now) / self.density

@@ -34,8 +34,7 @@ pub struct CamClayLaw {
     initial_pressure: f64,
     /// Mean stress at yield (Pa) in compression and in extension.
     yields: [f64; 2],
-    /// Roots of C, starting with the ratio of the K0 line, each with the coefficient of
-    /// `ln|eta - root|` in `ln p`.
+    /// Roots of C, the K0 ratio first, each with the coefficient of `ln|eta - root|` in `ln p`.
     poles: [[f64; 2]; 3],
     /// Coefficients of `ln(M^2 + eta^2)` and of `atan(eta/M)` in `ln p`.
     conjugate: [f64; 2],
@@ -79,8 +78,7 @@ impl CamClayLaw {
         law
     }
 
-    /// Returns the ratio `q/p` of the K0 line, on which compression without lateral strain keeps a
-    /// constant ratio.
+    /// Returns the ratio `q/p` of the K0 line: compression without lateral strain keeps this ratio.
     pub fn k0_ratio(&self) -> f64 {
         self.poles[0][0]
     }
@@ -136,9 +134,8 @@ impl CamClayLaw {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }
 
-    /// Computes the state at which the distance between `eta` and the ratio of the K0 line is
-    /// `exp(-u)` times the distance at yield. Returns `ln(p/p_y)`, the compaction after yield, and
-    /// the ratio.
+    /// Computes the state at which the distance between `eta` and the K0 ratio is `exp(-u)` times
+    /// that at yield. Returns `ln(p/p_y)`, the compaction after yield, and the ratio.
     fn beyond_yield(&self, u: f64) -> [f64; 3] {
         let (start, m2, [limit, weight]) =
             (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);
@@ -178,8 +175,7 @@ impl CamClayLaw {
         }
     }
 
-    /// Computes `tau11` and `tau22` (Pa) at the logarithmic strain `strain`; NaN if the clay
-    /// softens.
+    /// Computes `tau11` and `tau22` (Pa) at the logarithmic strain `strain`; NaN for softening.
     fn kirchhoff<T: Number>(&self, strain: T) -> [T; 2] {
         // Multiples of q in `-tau11` and `-tau22`.
         let shares = [2.0 / 3.0, -1.0 / 3.0];

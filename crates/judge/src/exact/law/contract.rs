@@ -4,8 +4,7 @@ use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
 
 /// A law between the displacement gradient and the first Piola-Kirchhoff stress P, generic over
-/// [`Number`]. With a number type that carries derivatives, automatic differentiation gives the
-/// divergence of P.
+/// [`Number`], so automatic differentiation gives the divergence of P.
 pub(super) trait ConstitutiveLaw {
     /// Name of the equation of motion in suites.
     const NAME: &'static str;
@@ -94,8 +93,7 @@ impl Lame {
         self.lambda + 2.0 * self.mu
     }
 
-    /// Returns `nu/(1 - nu)`, the ratio of the thickness strain to the area strain of a plate in
-    /// plane stress, with opposite sign.
+    /// Returns `nu/(1 - nu)`, minus the ratio of thickness to area strain in plane stress.
     pub(super) fn thinning(&self) -> f64 {
         self.lambda / self.modulus()
     }

@@ -1,7 +1,6 @@
 //! Linear elasticity with the Green-Naghdi rate in simple shear.
 //!
-//! Let `tan(beta) = gamma/2`, where beta is the rotation angle of `F = R U`. The rate then
-//! integrates to (Dienes 1979)
+//! With the rotation angle beta of `F = R U`, `tan(beta) = gamma/2`, the rate gives (Dienes 1979)
 //!
 //! ```text
 //! tau12 = 2 mu cos(2 beta) (2 beta - 2 tan(2 beta) ln(cos(beta)) - tan(beta))
@@ -40,8 +39,7 @@ impl ConstitutiveLaw for GreenNaghdiLaw {
             let (cos, sin) = (Number::cos(double), Number::sin(double));
             let log = Number::ln(Number::cos(beta));
             let (half, square) = (Number::tan(beta), Number::sin(beta) * Number::sin(beta));
-            // The product of cos(2 beta) and tan(2 beta) is written as sin(2 beta), because the
-            // tangent may be infinite.
+            // cos(2 beta) tan(2 beta) is written as sin(2 beta): the tangent may be infinite.
             let shear = T::from(2.0) * (cos * (double - half) - T::from(2.0) * sin * log);
             [T::from(4.0) * mu * (cos * log + beta * sin - square), mu * shear]
         })

@@ -1,11 +1,9 @@
 //! J2 plasticity with linear hardening under monotonic loading.
 //!
-//! While the logarithmic strain `eps` grows along one direction, the plastic strain is a function
-//! of `eps`, so the stress depends only on the current deformation (Hencky 1924). The Kirchhoff
-//! stress is `tau = K tr(eps) I + s dev(eps)`, with `s = 2 mu` up to
-//! `q = sqrt(3/2) |2 mu dev(eps)| = Y`. After yield, s satisfies `q = Y + H alpha` and
-//! `3 mu alpha = q_elastic - q`. The law is used in uniaxial strain; `monotone_loading` checks that
-//! the loading never reverses.
+//! While the logarithmic strain `eps` grows along one direction, the stress is a function of it
+//! (Hencky 1924): `tau = K tr(eps) I + s dev(eps)`, with `s = 2 mu` up to `q = sqrt(3/2) |2 mu
+//! dev(eps)| = Y`. After yield, s satisfies `q = Y + H alpha` and `3 mu alpha = q_elastic - q`. The
+//! law is used in uniaxial strain; `monotone_loading` checks that the loading never reverses.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use super::uniaxial_flow::{UniaxialLaw, UniaxialYield};

@@ -1,8 +1,7 @@
 //! Linear elasticity with the Jaumann rate in simple shear.
 //!
-//! In simple shear by gamma, the spin per unit gamma is constant. The rate integrates to
-//! `tau12 = mu sin(gamma)`, `tau11 = -tau22 = mu (1 - cos(gamma))` (Dienes 1979): the shear stress
-//! oscillates.
+//! In simple shear by gamma, the spin per unit gamma is constant. The rate integrates to the
+//! oscillating `tau12 = mu sin(gamma)`, `tau11 = -tau22 = mu (1 - cos(gamma))` (Dienes 1979).
 
 use super::contract::{ConstitutiveLaw, Lame};
 use super::simple_shear::{admit_a_plane, piola_in_simple_shear};

@@ -1,5 +1,5 @@
-//! Constitutive laws of exact solutions, implemented independently of the solvers. A new law needs
-//! a file in this folder and a line of `laws!`.
+//! Constitutive laws of exact solutions, independent of the solvers. Each has a file and a line of
+//! `laws!`.
 
 mod contract;
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! A polytropic gas, `P = -p J F^-T`, `p = K (rho0/J)^g`. Its energy is the work of expansion from
 //! J to infinity, `W = K rho0^g J^(1-g)/(g - 1)`.
 //!
-//! The methods below return stress and energy for unit reference density. The factor `rho0^g` is
-//! [`ConstitutiveLaw::density_factor`].
+//! Stress and energy are for unit density; `rho0^g` is [`ConstitutiveLaw::density_factor`].
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
@@ -55,8 +54,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// Expects p = 2 (3/1.5)^3 = 16 for a density of 3 kg/m3 and an expansion by 1.5 along one
-    /// axis.
+    /// For 3 kg/m3 and an expansion by 1.5 along one axis, p = 2 (3/1.5)^3 = 16.
     #[test]
     fn pressure_is_a_power_of_the_current_density() {
         let law = PolytropicLaw::new(2.0, 3.0);

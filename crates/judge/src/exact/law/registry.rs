@@ -64,18 +64,16 @@ macro_rules! laws {
                 }
             }
 
-            /// Computes P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law
-            /// depends on the density, this is P for unit reference density, see
-            /// [`Equation::density_factor`].
+            /// Computes P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`, at unit
+            /// reference density if the law depends on it, see [`Equation::density_factor`].
             pub fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
                 match self {
                     $(Self::$law(law) => law.piola(grad),)+
                 }
             }
 
-            /// Computes the energy W (J/m3) whose derivative is P, for unit reference density like
-            /// P. The energy is zero at rest or, for a gas, in the limit of infinite expansion.
-            /// Returns `None` for a law without energy.
+            /// Computes the energy W (J/m3) whose derivative is P, zero at rest or, for a gas, in
+            /// infinite expansion. Returns `None` for a law without energy.
             pub fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
                 match self {
                     $(Self::$law(law) => law.energy(grad),)+

@@ -24,8 +24,7 @@ pub(super) fn piola_in_simple_shear<T: Number, const D: usize>(
     })
 }
 
-/// Checks that the scene is two-dimensional. The error contains the reason and an alternative for
-/// the suite.
+/// Checks that the scene is two-dimensional. The error has the reason and an alternative.
 pub(super) fn admit_a_plane(dimension: usize) -> Result<(), [&'static str; 2]> {
     if dimension == 2 {
         return Ok(());

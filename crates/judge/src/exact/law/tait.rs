@@ -1,5 +1,4 @@
-//! A fluid without viscous stress, `P = -p J F^-T`, with Tait's equation of state in Cole's form,
-//! `p = K/7 (J^-7 - 1)` (Cole 1948).
+//! A fluid, `P = -p J F^-T`, with Tait's equation of state `p = K/7 (J^-7 - 1)` (Cole 1948).
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
@@ -13,8 +12,7 @@ pub struct TaitLaw {
 }
 
 impl TaitLaw {
-    /// Creates the law from the bulk modulus at rest (Pa) and the viscosity (Pa s). With viscosity,
-    /// the law holds only for a fluid at rest.
+    /// Creates the law from bulk modulus (Pa) and viscosity (Pa s). Viscous fluids must be at rest.
     pub fn new(bulk: f64, viscosity: f64) -> Self {
         Self { bulk, viscosity }
     }

@@ -1,16 +1,14 @@
 //! Plastic flow in uniaxial strain under monotonic loading.
 //!
-//! Let `e` be the logarithmic strain of the driven axis, with elasticity linear in `e` and linear
-//! hardening. The lateral stresses are equal, so for a yield surface of planes or a cone, the state
-//! is a point in the plane of axial and lateral Kirchhoff stress, and the yield surface consists of
-//! two straight lines in this plane. The stresses are then piecewise linear in `e`: elastic up to
-//! the first line that the path reaches, then along this line, and constant at an apex, where all
-//! principal stresses are equal.
+//! The elasticity is linear in the logarithmic strain `e` of the driven axis, and the hardening
+//! too. The lateral stresses are equal, so the state is a point in the plane of axial and lateral
+//! Kirchhoff stress, in which a yield surface of planes or a cone is two straight lines. The
+//! stresses are then piecewise linear in `e`: elastic up to the first line, then along this line,
+//! and constant at an apex, where all principal stresses are equal.
 //!
 //! A body with an initial stress starts at this stress instead of zero.
 //!
-//! In two and three dimensions, the driven axis is that of the only non-zero component of the
-//! displacement gradient.
+//! The driven axis is that of the only non-zero component of the displacement gradient.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
@@ -50,8 +48,7 @@ impl<L: UniaxialPlasticity> ConstitutiveLaw for L {
     }
 }
 
-/// Returns the axis of uniaxial strain: that of the only non-zero component of `grad`, or 0 if all
-/// are zero. `None` for any other deformation.
+/// Returns the axis of the only non-zero component of `grad` (0 for none), if on the diagonal.
 pub(in crate::exact) fn strained_axis<T: Number, const D: usize>(
     grad: &Tensor<T, D>,
 ) -> Option<usize> {
@@ -178,8 +175,7 @@ mod tests {
         MohrCoulombLaw::new(18e3, 0.2, 30.0, 10.0, 10.0)
     }
 
-    /// Returns the axial Kirchhoff stress (Pa) at the `strain` from the axial and lateral stress
-    /// `start` (Pa), and whether the body yields.
+    /// Returns the axial Kirchhoff stress (Pa) at the `strain` from `start`, and whether it yields.
     fn stress(law: &impl ConstitutiveLaw, strain: f64, [axial, lateral]: [f64; 2]) -> (f64, bool) {
         let (mut grad, mut initial) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
         grad[0][0] = libm::expm1(strain);

@@ -51,9 +51,8 @@ pub trait Outline: Debug + Send + Sync {
         0.0
     }
 
-    /// Returns the part of a lattice cell that belongs to the body, as particles. A lattice cell is
-    /// the box that one particle of a regular lattice represents, with half-lengths `half` (m)
-    /// around `centre`.
+    /// Returns the part of a lattice cell that belongs to the body, as particles. The cell of one
+    /// particle of a regular lattice is a box with half-lengths `half` (m) around `centre`.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut;
 
     /// Returns the volume of the part of the body in a box (m^D).
@@ -74,11 +73,9 @@ pub trait Outline: Debug + Send + Sync {
     /// Returns centre and half-lengths of a random box inside the body.
     fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>);
 
-    /// Returns the coordinate ranges of the charts. A chart maps a box to a part of the body; all
-    /// charts together cover the body.
+    /// Returns the coordinate ranges of the charts, which map boxes to parts that cover the body.
     fn charts(&self) -> Vec<Vec<(f64, f64)>>;
 
-    /// Returns the point of a chart at `coordinates`, and the volume of the body per unit of the
-    /// coordinates.
+    /// Returns the point of a chart at `coordinates`, and the body's volume per unit of them.
     fn place(&self, chart: usize, coordinates: &[f64]) -> (Vec<f64>, f64);
 }

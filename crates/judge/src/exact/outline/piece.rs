@@ -4,9 +4,8 @@
 use super::ROUNDING;
 use std::collections::BTreeMap;
 
-/// Minimum size of a piece, as a share of a lattice cell. A smaller piece is merged with a
-/// neighbour. If it were the only particle in the support of a node, it would limit the time step
-/// as much as a cell of its width.
+/// Minimum size of a piece that is not merged with a neighbour, as a share of a lattice cell. Alone
+/// at a node, a piece limits the time step as much as a cell of its width.
 const LEAST: f64 = 0.25;
 
 /// The part of a lattice cell that belongs to the body.
@@ -76,10 +75,9 @@ impl Piece {
 }
 
 /// Merges pieces smaller than a quarter of a lattice cell with the neighbour that shares the
-/// longest boundary, starting with the smallest piece. Volumes and first moments do not change. The
+/// longest boundary, the smallest piece first. Volumes and first moments do not change. The
 /// centroid of a merged piece must lie in the body (`holds`). `cuts` contains all lattice cells,
-/// row by row with `along` cells per row. The cells have half-lengths `half` (m) around their
-/// `centres` (m).
+/// `along` per row, with half-lengths `half` (m) around their `centres` (m).
 pub fn join_small(
     cuts: &mut [Cut],
     along: usize,

@@ -16,8 +16,7 @@ pub struct Polygon {
 }
 
 impl Polygon {
-    /// Creates the polygon with these corners (m), in either orientation; `kind` is the name of the
-    /// shape in suite files.
+    /// Creates the polygon with these corners (m), in either orientation, of the shape `kind`.
     ///
     /// # Errors
     /// Indices of two sides that cross, or that touch other than at a common corner. Side i begins
@@ -122,10 +121,9 @@ impl Outline for Polygon {
         if self.holds(label) { 0.0 } else { self.depth(&[label[0], label[1]]) }
     }
 
-    /// Returns the exact intersection of cell and body, with a particle at the centroid of the
-    /// intersection. The sum of V f(X) over the particles approximates the integral of f to second
-    /// order in the spacing, also at the rim. If the centroid is outside the body, for example in a
-    /// notch, each convex piece becomes a particle.
+    /// Returns the exact intersection of cell and body, with a particle at its centroid. Sums of V
+    /// f(X) approximate integrals of f to second order in the spacing, also at the rim. If the
+    /// centroid is outside the body, as in a notch, each convex piece becomes a particle.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
         let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
         let is_near = |corners: &&TriangleCorners| {
@@ -205,8 +203,7 @@ impl Outline for Polygon {
         (centre, half)
     }
 
-    /// Returns one chart per triangle: a unit square that is mapped to the triangle, with one side
-    /// mapped to the first corner.
+    /// Returns one chart per triangle: a unit square with one side mapped to the first corner.
     fn charts(&self) -> Vec<Vec<(f64, f64)>> {
         self.triangles.iter().map(|_| vec![(0.0, 1.0); 2]).collect()
     }
@@ -317,8 +314,7 @@ pub(super) fn distance(a: &Point, b: &Point, p: &Point) -> f64 {
 /// Three corners in counter-clockwise order.
 pub(super) type TriangleCorners = [Point; 3];
 
-/// Triangulates the simple polygon with these counter-clockwise corners by ear clipping (Meisters
-/// 1975, Polygons have ears).
+/// Triangulates a simple counter-clockwise polygon by ear clipping (Meisters 1975).
 pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
     let mut left: Vec<usize> = (0..corners.len()).collect();
     let mut found = Vec::new();

@@ -56,8 +56,7 @@ impl Round {
         [inner, outer].into_iter().filter(|rim| rim.radius > 0.0)
     }
 
-    /// Returns a random direction. On a sphere, the heights of uniformly distributed points are
-    /// uniform (Archimedes).
+    /// Returns a random direction. On a sphere, heights of uniform points are uniform (Archimedes).
     fn direction(&self, random: &mut Random) -> [f64; 3] {
         let angle = random.between(-PI, PI);
         let height = if self.centre.len() == 2 { 0.0 } else { random.between(-1.0, 1.0) };
@@ -198,13 +197,11 @@ fn direction(angle: f64, height: f64) -> [f64; 3] {
     [flat * libm::cos(angle), flat * libm::sin(angle), height]
 }
 
-/// Number of quadrature panels between two kinks. With four panels, a kink just outside the
-/// interval causes an error of 1e-9.
+/// Number of panels between two kinks. With four, a kink just outside causes an error of 1e-9.
 const PANELS: usize = 8;
 
-/// Computes the volume of the intersection of a ball with this `radius` and the box between `ends`.
-/// The volume is an integral along the last axis over slices, which are intersections with a ball
-/// of one dimension less.
+/// Computes the volume of the intersection of a ball with this `radius` and the box between `ends`:
+/// an integral along the last axis over slices, which are intersections with a smaller ball.
 pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     let Some((&(low, high), others)) = ends.split_last() else { return 1.0 };
     let (low, high) = (low.max(-radius), high.min(radius));
@@ -246,8 +243,7 @@ fn between_chords(radius: f64, low: f64, high: f64, ends: &[f64]) -> f64 {
     if middle.min(high) > low.max(-middle) { top - bottom } else { 0.0 }
 }
 
-/// Returns the sorted positions from `low` to `high` at which a slice touches a face, an edge or a
-/// corner of `others`, including both ends.
+/// Returns `low`, `high` and where between them a slice touches faces, edges or corners, sorted.
 fn kinks(radius: f64, others: &[(f64, f64)], low: f64, high: f64) -> Vec<f64> {
     let with = |squares: Vec<f64>, (from, to): &(f64, f64)| -> Vec<f64> {
         squares.into_iter().flat_map(|s| [s, s + from * from, s + to * to]).collect()

@@ -10,8 +10,7 @@ use rstest::rstest;
 const TRIANGLE: &[[f64; 2]] = &[[0.1, 0.1], [0.9, 0.2], [0.7, 0.8]];
 const ANGLE: &[[f64; 2]] =
     &[[0.1, 0.1], [0.9, 0.1], [0.9, 0.4], [0.4, 0.4], [0.4, 0.9], [0.1, 0.9]];
-/// A comb with slits narrower than a lattice cell, a corner on a straight line, and arms that share
-/// a cell of a coarse lattice.
+/// A comb with slits and arms narrower than a lattice cell, and a corner on a straight line.
 const COMB: &[[f64; 2]] = &[
     [0.0, 0.0],
     [0.5, 0.0],
@@ -96,8 +95,7 @@ fn mass_and_centroid_are_exact(
     is_exact(&corners, count);
 }
 
-/// A side passes a corner of a lattice cell at a distance of 1.4e-6 m, so the piece beyond the
-/// corner has an area of 4e-13 m2.
+/// A side passes a corner of a cell at 1.4e-6 m, with an area of 4e-13 m2 beyond it.
 #[test]
 fn a_negligible_piece_is_omitted() {
     let [one, other] = [
@@ -268,8 +266,7 @@ fn domains_have_the_shape_of_the_piece() {
     assert!((xx - yy).abs() < 1e-12 && (xy - yx).abs() < 1e-12 && xy < -0.05 * xx, "{xx} {xy}");
 }
 
-/// The volume per unit of the coordinates is linear on a chart, so the mean is the value at the
-/// centre.
+/// The volume per unit of the coordinates is linear on a chart, so its mean is that at the centre.
 #[rstest]
 fn charts_have_the_area_of_the_body(#[values(TRIANGLE, ANGLE, COMB)] corners: &[[f64; 2]]) {
     let body = polygon(corners);

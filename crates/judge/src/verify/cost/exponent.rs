@@ -1,13 +1,11 @@
 //! Cost of one more correct digit: the exponent of work ~ error^exponent, observed and theoretical.
 //!
-//! With error ~ h^p and work ~ h^-g the exponent is -g/p. Here g = D + 1 if cells are refined and
-//! time steps are proportional to h, g = D if the steps are constant, and g = 1 if only time steps
-//! are refined.
+//! With error ~ h^p and work ~ h^-g the exponent is -g/p. Here g = D + 1 if cells and time steps
+//! are refined together, g = D for constant steps, and g = 1 if only time steps are refined.
 //!
-//! The line is fitted to `ln error` over `ln work`, because work is counted and has no noise. The
-//! exponent is the inverse of the slope, and the ends of its interval are the inverses of the ends
-//! of the slope's interval (inverse regression: Draper & Smith, Applied Regression Analysis, 3rd
-//! ed., section 3.2).
+//! The line is fitted to `ln error` over `ln work`, because work has no noise. The exponent and the
+//! ends of its interval are the inverses of the slope and of the ends of the slope's interval
+//! (inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed., section 3.2).
 
 use super::sample::{ConvergingPart, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
@@ -18,8 +16,7 @@ const FEWEST: usize = 3;
 /// Minimum relative half-width of an interval, for series without noise.
 const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference at which the observed and the theoretical growth of work count as
-/// equal.
+/// Maximum relative difference between observed and theoretical growth that count as equal.
 const SAME: f64 = 0.02;
 
 /// Marginal cost of accuracy: the exponent of work over error.
@@ -31,8 +28,7 @@ pub struct Exponent {
     pub theory: f64,
     /// Observed order of the error over the same levels, and the formal order.
     pub order: (f64, f64),
-    /// Observed growth of work over the same levels, and the growth that follows from the
-    /// refinement plan.
+    /// Growth of the work over these levels: observed, and that of the refinement plan.
     pub growth: (f64, f64),
 }
 

@@ -28,8 +28,7 @@ pub struct Ranked {
     pub part: ConvergingPart,
     /// Work at each target error.
     pub reaches: Vec<Reach>,
-    /// Work at each target error, divided by the smallest work of all methods; `None` if the method
-    /// does not reach the target.
+    /// Work at each target error, divided by the smallest work of all methods, if reached.
     pub times: Vec<Option<f64>>,
     /// Smallest error of the converging part, or of all levels if there is no such part.
     pub best: Option<f64>,

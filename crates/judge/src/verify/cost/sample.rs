@@ -1,5 +1,4 @@
-//! Levels of one method: error and work of each level, the converging part, the Pareto front, and
-//! the work needed to reach an error.
+//! Levels of one method: error, work, converging part, Pareto front, and work to reach an error.
 //!
 //! An error may be interpolated between two levels of the converging part. Elsewhere a small error
 //! may be accidental, because the error may change sign or fluctuate.
@@ -39,8 +38,7 @@ impl Sample {
 /// Minimum order between neighbouring levels for which the error counts as decreasing.
 const LEAST_ORDER: f64 = 0.2;
 
-/// Minimum number of levels of a converging part, as in the judge: over only two levels an error
-/// may decrease by chance.
+/// Minimum number of levels of a converging part: over two levels an error may decrease by chance.
 const FEWEST: usize = 3;
 
 /// Minimum ratio of an error to that of the previous level for which the error counts as growing.
@@ -161,15 +159,13 @@ pub fn pareto_front(samples: &[Sample]) -> Vec<usize> {
 /// Work at which the error reaches a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reach {
-    /// The error is reached between two levels of the converging part. Values are interpolated
-    /// linearly on logarithmic axes.
+    /// The error is between two levels of the converging part, interpolated on logarithmic axes.
     At {
         /// Interpolated work.
         work: f64,
     },
-    /// The coarsest level already reaches the error. This is the coarsest of all valid levels if
-    /// all of them reach the error, otherwise the coarsest of the converging part. The work of this
-    /// level is an upper bound.
+    /// The coarsest level already reaches the error: the coarsest valid level if all reach it,
+    /// otherwise the coarsest of the converging part. Its work is an upper bound.
     Already {
         /// Work of the coarsest level.
         work: f64,
@@ -179,8 +175,7 @@ pub enum Reach {
 }
 
 impl Reach {
-    /// Returns the work at which the levels reach the error `target`. The levels are sorted from
-    /// coarse to fine and converge over `part`.
+    /// Returns the work at which the levels, which converge over `part`, reach the error `target`.
     pub fn of(samples: &[Sample], part: &ConvergingPart, target: f64) -> Self {
         let mut counted = samples.iter().filter(|one| one.counts());
         let unbroken = samples.iter().all(|one| !one.failed);

@@ -21,11 +21,9 @@ pub(super) struct Declaration {
     pub(super) shape: TensorShape,
     /// Returns the values that a solver reports, label by label; empty if it reports none.
     pub(super) computed: fn(&Samples) -> Cow<'_, [f64]>,
-    /// Writes the exact value at the label X at time t. Returns false if the exact solution does
-    /// not define it.
+    /// Writes the exact value at X and t. Returns false if the exact solution does not define it.
     pub(super) exact: fn(&dyn Truth, &[f64], f64, &mut [f64]) -> bool,
-    /// Writes exact values at all labels. Set only if the exact solution has a faster method for
-    /// many labels.
+    /// Writes exact values at all labels, if the exact solution has a faster method for many.
     pub(super) exact_at_all: Option<ExactAtAll>,
     /// Size of the exact values by which errors are divided.
     pub(super) size: SolutionSize,
@@ -55,8 +53,7 @@ pub(super) struct SumDeclaration {
 #[derive(Clone, Copy)]
 pub(super) enum ComputedSum {
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
-    /// A function of the second moments (kg m2) of the body in the current and in the reference
-    /// configuration; each has one moment per axis.
+    /// A function of the second moments (kg m2) per axis, in the current and in the reference body.
     OfMoments(fn([f64; 3], [f64; 3]) -> [f64; 3]),
     /// The reaction force of walls.
     Reaction,

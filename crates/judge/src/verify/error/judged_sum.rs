@@ -10,11 +10,9 @@ use mpm_subject::Subject;
 pub struct JudgedSum {
     of: Quantity,
     exact: BodySum,
-    /// Exact second moments of the reference configuration (kg m2). A ratio of second moments is
-    /// the current value divided by this one.
+    /// Exact second moments (kg m2) of the reference body, the divisor of a ratio of moments.
     reference: [f64; 3],
-    /// Axis of the face whose reaction is judged, and whether it is the high face of this axis;
-    /// `None` for the reaction of all faces.
+    /// Axis of the face whose reaction is judged, and whether it is high; `None` for all faces.
     face: Option<(usize, bool)>,
 }
 
@@ -55,8 +53,7 @@ impl JudgedSum {
         }
     }
 
-    /// Returns the difference from the exact sum at time `t` (s); NaN if the solver does not report
-    /// the sum.
+    /// Returns the difference from the exact sum at time `t` (s); NaN if the solver has none.
     pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
         let found = match self.of.sum().map(|sum| sum.computed) {
             Some(ComputedSum::OfTotals(value)) => {

@@ -1,8 +1,7 @@
 //! Norms of the error of one level.
 //!
-//! `|e_p|` is the Euclidean length of the error at label `p` (a particle, identified by its
-//! reference position), `w_p` its weight (reference volume), `m_p` its mass, and `n` the number of
-//! labels:
+//! `|e_p|` is the Euclidean length of the error at label `p` (the reference position of a
+//! particle), `w_p` its weight (reference volume), `m_p` its mass, and `n` the number of labels:
 //!
 //! ```text
 //! rms  = sqrt(1/n sum |e_p|^2)             unweighted, as in Wobbes & Tielen (2015)
@@ -104,9 +103,8 @@ impl Norms {
     /// Computes the norms of `errors`, which contains `dimension` components for each label, label
     /// by label. `weights` contains one weight for each label.
     ///
-    /// A norm is not finite if an error or weight is not finite. All norms are NaN if there are no
-    /// labels, if the lengths of the slices do not match, if a weight is negative, or if all
-    /// weights are zero.
+    /// A norm is not finite if an error or weight is not finite. All norms are NaN without labels,
+    /// if lengths of slices do not match, or if weights are negative or all zero.
     pub fn of(errors: &[f64], dimension: usize, weights: &[f64]) -> Self {
         let total: f64 = weights.iter().sum();
         let fits = dimension > 0 && errors.len() == dimension * weights.len();
@@ -200,8 +198,7 @@ pub fn larger(a: f64, b: f64) -> f64 {
 /// Scale for comparing the errors of different cases, and the growth of the work.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorScale {
-    /// Description of the problem: the end of the run, and the kind of solution. Only cases with
-    /// the same problem are compared.
+    /// End of the run and kind of solution. Only cases with the same problem are compared.
     pub problem: String,
     /// Divisor that turns an error into a fraction of the solution, in the unit of the judged
     /// error: the largest exact magnitude, or NaN if there is none. If the suite gives a scale,

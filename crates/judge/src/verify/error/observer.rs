@@ -1,5 +1,4 @@
-//! Records the velocity at one label (a point, identified by its reference position) over time, and
-//! interpolates the displacement at a point.
+//! Records the velocity at one label over time, and interpolates the displacement at a point.
 
 use crate::exact::Truth;
 use mpm_subject::Samples;
@@ -50,9 +49,8 @@ impl History {
 const NEAR: usize = 4;
 
 /// Interpolates the displacement at a fixed point of a body whose labels form a lattice, by cubic
-/// Lagrange interpolation on each axis. This compares the same point on every level. Each axis
-/// contributes the four labels around the point, or all labels if it has fewer. `None` if the
-/// labels near the point do not form a lattice.
+/// Lagrange interpolation of the four labels around it on each axis, or of all if there are fewer.
+/// This compares the same point on every level. `None` if the labels do not form a lattice.
 pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
     let d = samples.dimension;
     if d == 0 || place.len() != d || samples.is_empty() {
@@ -87,9 +85,8 @@ fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
     all[first..].iter().copied().zip(weights).collect()
 }
 
-/// Computes the weights of the Lagrange interpolation at `x`. The interpolation uses the `count`
-/// nearest of the ascending coordinates `sorted`, or all if there are fewer. Also returns the index
-/// of the first coordinate used.
+/// Computes the weights of the Lagrange interpolation at `x` by the `count` nearest (or all) of the
+/// ascending coordinates `sorted`. Also returns the index of the first one.
 pub fn lagrange_weights(sorted: &[f64], x: f64, count: usize) -> (usize, Vec<f64>) {
     let count = sorted.len().min(count);
     let above = sorted.partition_point(|c| *c < x);

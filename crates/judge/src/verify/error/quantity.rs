@@ -3,8 +3,7 @@
 //! To add a quantity, add its name to [`Quantity`], its [`Declaration`] to the constants of
 //! [`declaration`](super::declaration), and a line to [`Quantity::declaration`] that links the two.
 //!
-//! The error at a label is the square root of the sum of the squares of all components: the length
-//! of a vector, the Frobenius norm of a tensor.
+//! The error at a label is the length of a vector, or the Frobenius norm of a tensor.
 
 use super::declaration::{
     ANGULAR_MOMENTUM, DEFORMATION_GRADIENT, DEVIATORIC_STRESS, DISPLACEMENT, Declaration, ENERGY,
@@ -110,8 +109,7 @@ impl Quantity {
         self.declaration().unit
     }
 
-    /// Whether the quantity is a primary unknown of a solver. Tables show the errors of primary
-    /// unknowns.
+    /// Whether the quantity is a primary unknown of a solver. Tables show errors of these only.
     pub fn is_primary(self) -> bool {
         self.declaration().is_primary
     }
@@ -156,14 +154,12 @@ impl Quantity {
         [own].into_iter().chain(across).collect()
     }
 
-    /// Whether the quantity is a sum over the body. Norms of its errors are taken over the
-    /// instants.
+    /// Whether the quantity is a sum over the body, whose error norms are over the instants.
     pub fn is_sum(self) -> bool {
         self.sum().is_some()
     }
 
-    /// Returns the property of the problem that a sum requires, in addition to a moving body;
-    /// `None` for a field.
+    /// Returns the property that a sum requires in addition to a moving body; `None` for a field.
     pub fn sum_need(self) -> Option<SumNeed> {
         self.sum().map(|sum| sum.needs)
     }
@@ -192,8 +188,7 @@ impl Quantity {
         (self.declaration().computed)(samples)
     }
 
-    /// Writes the exact values at all labels. Returns false if the exact solution does not define
-    /// them.
+    /// Writes the exact values at all labels. Returns false if they are not defined.
     fn exact_at_all(self, truth: &dyn Truth, samples: &Samples, t: f64, into: &mut [f64]) -> bool {
         let (d, declaration) = (samples.dimension, self.declaration());
         if let Some(exact_at_all) = declaration.exact_at_all {
@@ -204,11 +199,10 @@ impl Quantity {
         places.all(|(label, into)| (declaration.exact)(truth, label, t, into))
     }
 
-    /// Returns the largest magnitude of the exact values at `places` (m) and `times` (s). This is
-    /// the length of a vector, or the Frobenius norm of a tensor. Quantities without a natural zero
-    /// are measured by their change: F by its difference from the identity, a temperature by its
-    /// range. NaN if the exact solution does not define the quantity, or if the magnitude is zero
-    /// everywhere.
+    /// Returns the largest magnitude of the exact values at `places` (m) and `times` (s): the
+    /// length of a vector, or the Frobenius norm of a tensor. F is measured by its difference from
+    /// the identity, and a temperature by its range. NaN if the exact solution does not define the
+    /// quantity, or if the magnitude is zero everywhere.
     pub fn largest_exact(self, truth: &dyn Truth, places: &[Vec<f64>], times: &[f64]) -> f64 {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for place in places {
@@ -225,8 +219,7 @@ impl Quantity {
         if size > 0.0 && size.is_finite() { size } else { f64::NAN }
     }
 
-    /// Returns the magnitude at one point, or the value itself if the quantity is measured by its
-    /// range.
+    /// Returns the magnitude at one point, or the value if the quantity is measured by its range.
     fn magnitude(self, truth: &dyn Truth, place: &[f64], t: f64) -> Option<f64> {
         let (d, declaration) = (place.len(), self.declaration());
         let mut exact = vec![0.0; self.components(d)];
@@ -251,8 +244,7 @@ impl Quantity {
     }
 
     /// Returns the number of components at each label, and `computed - exact` at the labels of
-    /// `samples` at time `t`. `None` if the solver or the exact solution does not define the
-    /// quantity.
+    /// `samples` at time `t`. `None` if either does not define the quantity.
     pub fn differences(
         self,
         samples: &Samples,
@@ -281,8 +273,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Exact solution of a plane body that moves along X under uniform shear stress. The solution
-    /// does not define F.
+    /// A plane body that moves along X under uniform shear stress, without exact F.
     struct Sheared;
 
     impl Truth for Sheared {
@@ -301,8 +292,7 @@ mod tests {
         }
     }
 
-    /// Creates two labels. The error of each quantity is a vector of length 5 or a tensor of norm
-    /// 5.
+    /// Creates two labels whose errors are vectors of length 5 or tensors of norm 5.
     fn off_by_five() -> Samples {
         Samples {
             dimension: 2,

@@ -1,9 +1,8 @@
 //! Differences between repeated runs of one level.
 //!
 //! Solvers that add in no fixed order, for instance with atomic additions on a GPU, give different
-//! bits in each run. The spread of a level is the largest difference between two of its runs: the
-//! judged quantity is subtracted at each label, and the norm of the suite is applied to the
-//! differences. A difference between two norms would not suffice, because errors with equal norms
+//! bits in each run. The spread of a level is the largest norm of the differences between two of
+//! its runs at each label. A difference of norms would not suffice, because errors with equal norms
 //! can differ at every label.
 
 use crate::exact::Truth;
@@ -11,8 +10,7 @@ use crate::verify::{NormName, Norms, Quantity, RunErrors};
 use mpm_subject::Samples;
 use std::cmp::Ordering;
 
-/// Judged quantity of one run minus its exact value. The exact value is the same in all runs of a
-/// level.
+/// Judged quantity of one run minus its exact value, which is the same in all runs of a level.
 #[derive(Debug, Clone, Default)]
 pub struct RunRecord {
     /// Whether all instants are recorded, instead of only the last one.
@@ -77,8 +75,7 @@ impl RunRecord {
 }
 
 impl Instant {
-    /// Sorts the labels in lexicographic order. A solver may return its particles in a different
-    /// order in each run.
+    /// Sorts the labels lexicographically. The order of particles may differ between runs.
     fn sorted(self, dimension: usize) -> Self {
         let d = dimension.max(1);
         let count = self.weights.len();

@@ -1,5 +1,4 @@
-//! Compares an observed order with the range that a suite could expect, and suggests how to make
-//! the expectation stronger.
+//! Compares an observed order with the expected range, and suggests stronger expectations.
 
 use crate::verify::figure::counted;
 use crate::verify::{
@@ -7,8 +6,7 @@ use crate::verify::{
     Verdict, format_number, judge, two_sided_95,
 };
 
-/// Maximum width of the observed interval for which the default range is proposed, as a fraction of
-/// the half-width of this range.
+/// Maximum width of an interval in the default range, as a fraction of the range's half-width.
 const COMFORTABLE: f64 = 0.75;
 
 /// Whether the default range around `order` contains the observed interval with a margin.
@@ -49,8 +47,7 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     }
     let points = study.judgement.window.as_ref().map_or(0, Vec::len);
     if order.half_width() > WIDE && points >= FEWEST_LEVELS {
-        // The width is proportional to t/sqrt(Sxx), with Sxx ~ n (n^2 - 1) for n levels with equal
-        // ratios of spacing.
+        // The width is proportional to t/sqrt(Sxx), with Sxx ~ n (n^2 - 1) for equal ratios.
         let width = |n: usize| {
             let n_f = n as f64;
             two_sided_95(n - 2) / (n_f * (n_f * n_f - 1.0)).sqrt()
@@ -65,8 +62,7 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     advice
 }
 
-/// Suggests the norm with the narrowest interval of the order, if this interval is much narrower
-/// than in the judged norm.
+/// Suggests the norm with the narrowest interval of the order, if it is much narrower.
 fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     const CLEARLY: f64 = 0.5;
     if judged.half_width() <= WIDE {
@@ -128,8 +124,7 @@ mod tests {
         study
     }
 
-    /// Expects a ratio of widths from t(4) = 2.776 and t(6) = 2.447, and Sxx ~ n (n^2 - 1) for n
-    /// levels with equal ratios.
+    /// From t(4) = 2.776 and t(6) = 2.447, and Sxx ~ n (n^2 - 1) for n levels with equal ratios.
     #[test]
     fn more_levels_narrow_an_interval_as_those_of_a_line() {
         let width = 2.447 / 2.776 * (6.0 * 35.0 / (8.0 * 63.0_f64)).sqrt();

@@ -1,11 +1,10 @@
 //! Requirements of `run --gate` on external solvers.
 //!
-//! The expectations of a suite bound the order of its own methods on both sides, because an order
-//! that is too high shows a defect of the suite. The order of an external solver has a lower bound
-//! only, because superconvergence at its sample points is not a defect. The 95 % interval of the
-//! order must reach this bound, and must exclude orders that are lower by 0.5, the typical effect
-//! of a defect. The interval may extend below the bound, because with few levels it extends 0.1 or
-//! more to each side even for a correct solver.
+//! The expectations of a suite bound the order of its own methods on both sides, because a high
+//! order shows a defect of the suite. The order of an external solver has a lower bound only: it
+//! may be superconvergent at its sample points. The 95 % interval must reach this bound and exclude
+//! orders lower by 0.5, the typical effect of a defect. It may extend below the bound, because with
+//! few levels it extends 0.1 or more to each side even for a correct solver.
 
 use crate::verify::{
     Axis, FEWEST_LEVELS, Interval, Judgement, Level, OrderHypothesis, Unmet, UnmetCode, Verdict,
@@ -15,8 +14,7 @@ use crate::verify::{
 /// Loss of order that a typical defect causes.
 const FAULT: f64 = 0.5;
 
-/// Minimum number of levels within a bound that no `any_method` and no configuration states, if
-/// coarser levels exceed the bound.
+/// Minimum number of levels within an unstated bound, if coarser levels exceed the bound.
 const FEWEST_WITHIN: usize = 2;
 
 /// Maximum excess of the observed order over the required order without a remark.
@@ -148,9 +146,8 @@ impl Requirement {
         let is_met = ends_within
             && match above {
                 0 => true,
-                // If there are too few coarse levels for an order, their errors may be
-                // pre-asymptotic. Without a bound, these errors must decrease down to the rounding
-                // error.
+                // Too few coarse levels for an order may be pre-asymptotic. Without a bound, their
+                // errors must decrease down to the rounding error.
                 1..FEWEST_LEVELS => bound.is_some() || self.falls(coarse),
                 _ => {
                     let coarse: Vec<Level> = coarse.iter().map(|level| (*level).clone()).collect();
@@ -187,8 +184,7 @@ impl Requirement {
         is_steady && first.error / last.error >= libm::pow(first.h / last.h, lowest)
     }
 
-    /// Returns a remark if the whole interval of the order lies more than 1 above the required
-    /// order.
+    /// Returns a remark if the whole interval of the order is over 1 above the required order.
     pub(crate) fn excess(&self, judgement: &Judgement) -> Option<String> {
         let (required, order) = (self.order?, judgement.order?);
         let is_far = order.low > required + MOST_EXCESS;

@@ -12,8 +12,7 @@ pub struct Limits {
     pub bounds: Vec<(CaseFigure, f64)>,
     /// Maximum relative drifts on the levels that count.
     pub drift: Vec<(Conserved, f64)>,
-    /// Range of the energy rate (1/s). The range must contain the whole confidence interval on
-    /// every level that counts.
+    /// Range of the energy rate (1/s) that must contain the whole interval on every counted level.
     pub energy_rate: Option<(f64, f64)>,
 }
 
@@ -24,8 +23,7 @@ pub struct Measured {
     pub figures: [Option<f64>; CaseFigure::ALL.len()],
     /// Largest drifts of the levels that count; `None` if the solver reports no sums over the body.
     pub drift: Option<ConservationError>,
-    /// Union of the confidence intervals of the energy rate (1/s) on the levels that count; `None`
-    /// if a level has no interval.
+    /// Union of the intervals of the energy rate (1/s) on the levels that count, if all have one.
     pub energy_rate: Option<(f64, f64)>,
 }
 

@@ -43,8 +43,7 @@ pub struct ProposedKey {
 pub struct Proposal {
     /// Keys other than `case` and `because`.
     pub keys: Vec<ProposedKey>,
-    /// Reason for the expectation. If theory gives none, the author of the suite must complete the
-    /// text.
+    /// Reason for the expectation; without theory, the author of the suite must complete the text.
     pub because: String,
     /// Verdict and measured values of the run.
     pub seen: String,

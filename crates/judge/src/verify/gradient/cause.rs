@@ -8,8 +8,7 @@ const ALIKE: f64 = 1e-3;
 /// Fraction of a central difference below which a derivative counts as zero.
 const ZERO: f64 = 1e-9;
 
-/// Range of the factor by which an error grows with twice the motion, if it is of first or second
-/// order in the motion.
+/// Range of the growth of an error of first or second order in the motion, with twice the motion.
 const GROWS: (f64, f64) = (1.6, 4.5);
 
 /// Minimum relative error whose growth is measured. Smaller errors may be rounding.
@@ -43,8 +42,7 @@ pub struct GradientEvidence {
     pub entries: Vec<GradientEntry>,
     /// Value of the functional after all steps except the last; NaN if it is unknown.
     pub one_step_less: f64,
-    /// Relative errors of the derivative, with the initial velocity of the problem and with twice
-    /// that velocity; NaN if unknown.
+    /// Relative errors with the initial velocity and with twice that velocity; NaN if unknown.
     pub errors: [f64; 2],
     /// Value of the functional for a Young's modulus near zero; NaN if it is unknown.
     pub without_stress: f64,
@@ -130,8 +128,7 @@ impl GradientEvidence {
         })
     }
 
-    /// Describes which entry belongs to which parameter, if the entries are correct but in the
-    /// wrong order.
+    /// Describes which entry belongs to which parameter, if only the order of the entries is wrong.
     fn order(&self) -> Option<String> {
         let mut free: Vec<&GradientEntry> = self.entries.iter().collect();
         let mut belongs = Vec::new();
@@ -147,9 +144,8 @@ impl GradientEvidence {
         (!moved.is_empty()).then(|| moved.join(", "))
     }
 
-    /// Whether the derivative with respect to the factor on the initial velocity is wrong, and
-    /// equals the derivative for a motion without stress. Without stress the functional is
-    /// proportional to the factor.
+    /// Whether the derivative with respect to the initial velocity is wrong, and is that of a
+    /// motion without stress, whose functional is proportional to the velocity.
     fn is_without_stress(&self) -> bool {
         let velocity = self.entries.iter().find(|entry| entry.parameter == "initial_velocity");
         velocity

@@ -42,8 +42,7 @@ pub struct GradientStudy {
     pub functional: &'static str,
     /// Name of the parameter.
     pub parameter: &'static str,
-    /// Whether all derivatives are numbers of single precision, but the solver states double
-    /// precision.
+    /// Whether a solver that states double precision has derivatives of single precision only.
     pub single_precision: bool,
     /// Check 1: the value of the functional, on the level where parameters are perturbed.
     pub value: ValueCheck,
@@ -131,8 +130,7 @@ pub struct GradientTerms {
 }
 
 impl GradientTerms {
-    /// Returns the requirements of `run --gate` on a solver with this formal order: any state
-    /// except `wrong`, and the order.
+    /// Returns the requirements of `run --gate`: any state except `wrong`, and the formal order.
     pub fn of_gate(formal_order: f64) -> Self {
         let around = |width: f64| Some((formal_order - width, formal_order + width));
         Self { state: None, order: around(ORDER), finest: around(FINEST) }
@@ -179,8 +177,7 @@ mod tests {
     use super::*;
     use crate::verify::gradient::Perturbed;
 
-    /// Creates a study of J = q^2 at q = 1 on three levels. The reported derivative is the correct
-    /// one times `factor`.
+    /// Creates a study of J = q^2 at q = 1 on three levels, with `factor` times the derivative.
     fn study(factor: f64, error: impl Fn(f64) -> f64) -> GradientStudy {
         let perturbed = |level: i32| {
             let by = libm::exp2(-f64::from(level));

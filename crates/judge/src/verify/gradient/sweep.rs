@@ -31,9 +31,8 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Integrates the derivative over `points`, which are sorted by the parameter. `rounding` is
-    /// the rounding error of a value. `None` if the function changes so little that a rounding
-    /// error could count as a jump.
+    /// Integrates the derivative over `points`, sorted by the parameter. `None` if the function
+    /// changes so little that the `rounding` error of a value could count as a jump.
     pub fn new(points: &[SweepPoint], rounding: f64) -> Option<Self> {
         let (first, last) = (points.first()?, points.last()?);
         let change = last.value - first.value;

@@ -26,8 +26,7 @@ const SPREAD: f64 = 0.05;
 /// Maximum rounding error of a usable central difference, relative to its magnitude.
 const NOISE: f64 = 0.01;
 
-/// Maximum distance between a correct derivative and the central difference, in units of the
-/// uncertainty of the central difference.
+/// Maximum distance of a correct derivative from the central difference, in its uncertainties.
 const SURE: f64 = 10.0;
 
 /// Values of the functional for one perturbation of the parameter.
@@ -70,8 +69,7 @@ impl Taylor {
         self.perturbed.iter().map(remainder).collect()
     }
 
-    /// Returns the orders of the remainder between consecutive perturbations; `None` if a remainder
-    /// is not larger than its rounding error.
+    /// Returns the orders of remainders above rounding between consecutive perturbations.
     pub fn orders(&self) -> Vec<Option<f64>> {
         let all: Vec<(f64, f64)> =
             self.perturbed.iter().map(|p| p.by).zip(self.remainders()).collect();
@@ -160,8 +158,7 @@ impl Taylor {
     }
 }
 
-/// Returns the difference between the largest and the smallest number, relative to the largest
-/// magnitude; NaN if a number is NaN.
+/// Returns largest minus smallest number, relative to the largest magnitude; NaN for NaN.
 fn spread(numbers: &[f64]) -> f64 {
     if numbers.iter().any(|number| number.is_nan()) {
         return f64::NAN;
@@ -176,8 +173,7 @@ fn is_in(order: Option<f64>, range: (f64, f64)) -> bool {
     order.is_some_and(|order| range.0 <= order && order <= range.1)
 }
 
-/// Whether the orders for the smallest perturbations are in a range. Perturbations whose remainder
-/// is a rounding error are ignored.
+/// Whether the orders for the smallest perturbations above rounding are in a range.
 fn has_tail(orders: &[Option<f64>], range: (f64, f64)) -> bool {
     let end = orders.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
     let start = end.saturating_sub(LEVELS - 1);
@@ -197,8 +193,7 @@ fn longest_run(orders: &[Option<f64>], range: (f64, f64)) -> usize {
 mod tests {
     use super::*;
 
-    /// Creates a Taylor test of `f` at q = 2 with the derivative `gradient` and the rounding error
-    /// `rounding`.
+    /// Creates a Taylor test of `f` at q = 2 with this derivative and rounding error.
     fn taylor(f: impl Fn(f64) -> f64, gradient: f64, rounding: f64) -> Taylor {
         let q = 2.0;
         let perturbed = |level: u32| {

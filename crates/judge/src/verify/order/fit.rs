@@ -75,14 +75,12 @@ impl FittedLine {
         (sxx > 0.0 && line.slope.is_finite()).then_some(line)
     }
 
-    /// Returns the vertical distance of a point from the line. This is `ln` of the ratio of the
-    /// error at the point to the error on the line.
+    /// Returns `ln` of the ratio of the error at a point to the error on the line.
     pub(crate) fn departure(&self, point: &LogPoint) -> f64 {
         (point.y - self.mean_y) - self.slope * (point.x - self.mean_x)
     }
 
-    /// Returns the slope with its confidence interval. The ends are NaN for fewer than three
-    /// points.
+    /// Returns the slope with its interval, whose ends are NaN for fewer than three points.
     pub(crate) fn order(&self) -> Interval {
         let freedom = self.points.saturating_sub(2);
         let deviation = (self.rss / freedom as f64 / self.sxx).sqrt();
@@ -142,8 +140,7 @@ mod tests {
         assert_abs_diff_eq!(order.half_width(), 0.0, epsilon = 1e-13);
     }
 
-    /// Values computed by hand: y = 0, 0, 3 at x = 0, 1, 2 gives slope 3/2, rss 3/2 and t(0.975, 1)
-    /// = 12.7062.
+    /// By hand: y = 0, 0, 3 at x = 0, 1, 2 gives slope 3/2, rss 3/2 and t(0.975, 1) = 12.7062.
     #[test]
     fn three_points_by_hand() {
         let y = [0.0, 0.0, 3.0];

@@ -125,8 +125,7 @@ fn same(a: f64, b: f64) -> bool {
 /// p = ln(error_coarse / error_fine) / ln(h_coarse / h_fine)
 /// ```
 ///
-/// The order is negative if the error grows under refinement. `None` if a number is zero, negative
-/// or not finite, or if the spacings are equal.
+/// It is negative if the error grows. `None` for equal spacings, or numbers without logarithm.
 pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
     let fall = logarithm(coarse.error)? - logarithm(fine.error)?;
     let ratio = logarithm(coarse.h)? - logarithm(fine.h)?;

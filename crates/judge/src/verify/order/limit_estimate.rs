@@ -1,5 +1,4 @@
-//! Estimates the limit of a series of values under refinement, with an interval and without an
-//! exact solution.
+//! Estimates the limit of a series under refinement, with an interval and without exact solution.
 //!
 //! The four finest levels `h4 > h3 > h2 > h1` form two triples. Richardson extrapolation
 //! ([`Richardson`]) yields an order and a limit for each: `p`, `u0` for the finest triple, and `q`,
@@ -29,15 +28,13 @@ const SAFETY_FACTOR: f64 = 3.0;
 /// Maximum difference between the orders of the two triples.
 const ORDER_SCATTER: f64 = 1.0;
 
-/// Minimum order of a triple. At lower orders, the distance of the extrapolated from the finest
-/// value is more than twice the last change.
+/// Minimum order of a triple; below it, the limit is over twice the last change from the finest.
 const LEAST_ORDER: f64 = 0.5;
 
 /// Maximum order of a triple, above the order of any method of this crate.
 const LARGEST_ORDER: f64 = 4.5;
 
-/// Minimum last change, in units of the rounding error of a value. Rounding then changes the ratio
-/// of changes by at most an eighth.
+/// Minimum last change, in rounding errors, which then change the ratio by an eighth at most.
 const LEAST_CHANGE: f64 = 16.0;
 
 /// Relative rounding error of a computed value, which is a sum of several terms.
@@ -50,16 +47,14 @@ pub struct SeriesPoint {
     pub h: f64,
     /// The value.
     pub value: f64,
-    /// Distance between neighbouring numbers in the output that contains the value, in the unit of
-    /// the value; zero for double precision.
+    /// Distance between neighbouring numbers in the output with the value; 0 for double precision.
     pub resolution: f64,
 }
 
 /// Order and limit of a series of values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LimitEstimate {
-    /// Order of the finest three values. The width of the interval depends on the difference from
-    /// the order of the next coarser triple.
+    /// Order of the finest three values, with an interval from that of the next coarser three.
     pub order: Interval,
     /// Extrapolated value, with an interval of nominally 95 %.
     pub limit: Interval,
@@ -218,8 +213,7 @@ mod tests {
         series(&points)
     }
 
-    /// For `3 + 2 h^p` the orders of the triples are equal, and the interval extends to the finest
-    /// value.
+    /// For `3 + 2 h^p` the orders of the triples agree, and the interval ends at the finest value.
     #[rstest]
     fn a_power_of_h_gives_its_limit(
         #[values(0.6, 1.0, 2.0, 4.4)] order: f64,
@@ -234,9 +228,8 @@ mod tests {
         assert_eq!(estimate.finest, finest);
     }
 
-    /// Values computed by hand for 1 + h + h^2 at h = 1, 1/2, 1/4, 1/8. The changes are 5/4, 7/16
-    /// and 11/64, the ratios 20/7 and 28/11, and the limits 7/4 - (7/16)/(13/7) and 73/64 -
-    /// (11/64)/(17/11).
+    /// By hand for 1 + h + h^2 at h = 1, 1/2, 1/4, 1/8: the changes are 5/4, 7/16 and 11/64, their
+    /// ratios 20/7 and 28/11, and the limits 7/4 - (7/16)/(13/7) and 73/64 - (11/64)/(17/11).
     #[test]
     fn the_interval_by_hand() {
         let estimate = estimate_limit(&halvings(&[3.0, 1.75, 1.3125, 1.140_625])).unwrap();

@@ -8,8 +8,7 @@
 //! ```
 //!
 //! (Roache 1994, 1998; unequal ratios as in Celik et al. 2008.) Only monotonically converging
-//! values have an order: the solution `p`. Their changes have the same sign, and shrink as a
-//! positive order requires.
+//! values have an order `p`: their changes have one sign and shrink as a positive order requires.
 //!
 //! Three values always fit, so they give no interval; an interval requires a fourth value
 //! (`limit_estimate`). The grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache

@@ -50,8 +50,7 @@ fn probability_within(theta: f64, nu: usize) -> f64 {
 }
 
 /// Returns the sum in brackets, from the term `first` to the term in `cos^(nu-2)`. Each term is the
-/// previous one times `cos^2 (k-1)/k`, where `k` increases in steps of two from `second` to
-/// `nu - 2`.
+/// previous one times `cos^2 (k-1)/k`, with `k` in steps of two from `second` to `nu - 2`.
 fn cosine_sum(first: f64, second: usize, cos: f64, nu: usize) -> f64 {
     let mut term = first;
     let mut sum = first;

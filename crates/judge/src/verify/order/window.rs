@@ -22,16 +22,13 @@ use std::ops::Range;
 /// Minimum number of levels for an order; the interval then has two degrees of freedom.
 pub const FEWEST_LEVELS: usize = 4;
 
-/// Probability that pure noise shortens the window in one step: a tenth of the 5 % of the
-/// confidence interval.
+/// Probability that noise shortens the window in one step: a tenth of the interval's 5 %.
 const SELECTION_RISK: f64 = 0.005;
 
-/// Minimum departure, in `ln error`, of a dropped level: 5 %. In noise-free data round-off would
-/// otherwise be statistically significant.
+/// Minimum departure, in `ln error`, of a dropped level, because round-off may be significant.
 const MATERIAL: f64 = 0.05;
 
-/// Maximum order for which the error counts as constant: halving `h` changes the error by less than
-/// 15 %.
+/// Maximum order of an error that counts as constant: halving `h` changes it by less than 15 %.
 pub(crate) const FLAT_ORDER: f64 = 0.2;
 
 /// On a floor, the order is below this fraction of the previous order and of the formal order.
@@ -59,8 +56,7 @@ impl Window {
             && FittedLine::through(&points[end - 1..]).is_some_and(|tail| tail.slope.abs() < limit)
     }
 
-    /// Whether the levels outside this window may be dropped, provided that the F-test rejects
-    /// them.
+    /// Whether levels outside this window may be dropped, provided that the F-test rejects them.
     fn may_drop_rest(&self, points: &[LogPoint], formal_order: f64) -> bool {
         let Range { start, end } = self.range;
         let departures = |rest: &[LogPoint]| -> Vec<f64> {
@@ -75,8 +71,7 @@ impl Window {
             && (fine.is_empty() || self.meets_floor(points, formal_order))
     }
 
-    /// Whether the F-test rejects, at the significance level `risk`, that the levels dropped by
-    /// `shorter` lie on the line of `shorter`.
+    /// Whether the F-test rejects, at `risk`, that levels dropped by `shorter` lie on its line.
     fn is_rejected_by(&self, shorter: &Self, risk: f64) -> bool {
         let dropped = self.range.len() - shorter.range.len();
         let freedom = shorter.range.len() - 2;
@@ -106,8 +101,7 @@ pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> 
     Some(window)
 }
 
-/// Lists contiguous parts with enough levels, sorted by decreasing length. Of equally long parts
-/// the finer ones come first.
+/// Lists contiguous parts with enough levels, the longest and then the finest first.
 fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
     (FEWEST_LEVELS..range.len())
         .rev()
@@ -118,8 +112,7 @@ fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Whether all departures, listed from the window outwards, are larger than [`MATERIAL`] and to one
-/// side, with the last one as the largest.
+/// Whether all departures exceed [`MATERIAL`] on one side, and the outermost is the largest.
 fn is_departing(outward: &[f64]) -> bool {
     let Some(last) = outward.last() else {
         return true;

@@ -20,8 +20,7 @@ pub struct Recurrence {
 }
 
 impl Recurrence {
-    /// Fits the recurrence to a series by least squares. All results are NaN if the series is too
-    /// short or constant.
+    /// Fits the recurrence by least squares. All results are NaN for short or constant series.
     ///
     /// The unknowns are `det` and `1 - tr + det`. They are the coefficients of the increment
     /// `d = y(k+1) - y(k)` and of `a = y(k+1)` in `y(k+2) - y(k+1) = det d - (1 - tr + det) a`.

@@ -12,8 +12,7 @@ pub struct WaveFigures {
 }
 
 impl WaveFigures {
-    /// Computes phase error and damping of a wave at the Courant number `courant`. The wavelength
-    /// is `cells` cells.
+    /// Computes phase error and damping of a wave of `cells` cells at the Courant number.
     pub fn of(step: &Recurrence, cells: f64, courant: f64) -> Self {
         Self {
             phase_error: step.phase_error(cells, courant),
@@ -60,8 +59,7 @@ impl SpectrumStudy {
         self.rows.iter().any(|row| row.measured.is_err())
     }
 
-    /// Returns text with the largest magnitude of the measured phase errors and the smallest
-    /// amplitude.
+    /// Returns text with the largest measured phase error and the smallest amplitude.
     pub fn reason(&self) -> String {
         let measured = || self.rows.iter().filter_map(|row| row.measured.as_ref().ok());
         let phases = measured().filter_map(|figures| figures.phase_error).map(f64::abs);

@@ -1,10 +1,8 @@
-//! The amplification matrix: one step of a solver as a matrix, with particles that keep their
-//! position on the grid.
+//! The amplification matrix of a step of a solver whose particles keep their position on the grid.
 //!
-//! Near a state of rest the step is linear in small perturbations, `s(n+1) = A s(n)`. Column j of A
-//! is computed by running the solver from a state whose entry j is perturbed. Central differences
-//! eliminate quadratic terms (volume times stress). Entries are scaled by their natural sizes,
-//! which does not change eigenvalues.
+//! Near rest, `s(n+1) = A s(n)` for small perturbations. Column j of A is the result of a run with
+//! entry j perturbed. Central differences eliminate quadratic terms (volume times stress). Entries
+//! are scaled by their natural sizes, which does not change eigenvalues.
 
 use mpm_subject::{Failure, Perturbable};
 use nalgebra::DMatrix;
@@ -31,11 +29,10 @@ pub enum AmplificationError {
     Failed(Failure),
 }
 
-/// Computes the amplification matrix of one step, or of several consecutive steps with the lengths
-/// `dt` (s). `subject` must be at rest, and its particles must not move relative to the grid.
-/// `speed` (m/s) and `modulus` (Pa) are the natural sizes of speed and stress. An entry that is
-/// constant and affects no other entry, such as the volume of a particle without stress, has no
-/// row; its eigenvalue is one.
+/// Computes the amplification matrix of one step, or of several consecutive ones of lengths `dt`
+/// (s). `subject` must be at rest, with particles that do not move relative to the grid. `speed`
+/// (m/s) and `modulus` (Pa) are natural sizes. An entry that is constant and affects no other, such
+/// as the volume of a particle without stress, has no row; its eigenvalue is one.
 ///
 /// # Errors
 /// If the body is not at rest, or if a step fails.
@@ -92,8 +89,7 @@ mod tests {
     use super::*;
     use mpm_subject::{RunCounters, Samples, Subject};
 
-    /// A state of three numbers with the step `a' = a/2 + b, b' = 3 b`; `third` advances the third
-    /// number.
+    /// The step `a' = a/2 + b, b' = 3 b` of three numbers; `third` advances the third one.
     struct Linear {
         state: Vec<f64>,
         third: fn(f64) -> f64,

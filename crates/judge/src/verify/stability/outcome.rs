@@ -32,11 +32,9 @@ pub struct StabilityRow {
 /// Predicted and observed stability limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Critical {
-    /// Prediction from the matrix that describes one step for small perturbations, with particles
-    /// that keep their position on the grid.
+    /// Prediction from the amplification matrix, with particles at rest on the grid.
     pub predicted: Option<Prediction>,
-    /// Runs below and above the prediction, each with its parameter value divided by the
-    /// prediction.
+    /// Runs below and above the prediction, with parameter values divided by the prediction.
     pub confirmed: Vec<(f64, Trial)>,
     /// Limit from runs by bisection, if there is no prediction.
     pub observed: Option<StabilityLimit>,
@@ -47,8 +45,7 @@ pub struct Critical {
 pub struct Prediction {
     /// Parameter value at which the spectral radius exceeds one.
     pub limit: StabilityLimit,
-    /// Eigenvalue that leaves the unit circle at the limit: the real part, and the magnitude of the
-    /// imaginary part.
+    /// Eigenvalue that leaves the unit circle: real part, and magnitude of the imaginary part.
     pub leaves: Option<(f64, f64)>,
 }
 

@@ -3,8 +3,7 @@
 use nalgebra::DMatrix;
 use nalgebra::linalg::Schur;
 
-/// Maximum number of QR iterations. If they do not suffice, the radius is computed from powers of
-/// the matrix.
+/// Maximum number of QR iterations before the radius is computed from powers of the matrix.
 const PATIENCE: usize = 1_000;
 
 /// An entry below the diagonal counts as zero if it is less than this fraction of its diagonal
@@ -19,9 +18,8 @@ const SQUARINGS: i32 = 30;
 pub struct Radius {
     /// Modulus of the largest eigenvalue; infinite if an entry of the matrix is not finite.
     pub radius: f64,
-    /// Real part and magnitude of the imaginary part of the largest eigenvalue, if it was computed.
-    /// If the eigenvalue is -1, the mode changes its sign in every step. A complex eigenvalue means
-    /// a slower oscillation.
+    /// Real part and magnitude of the imaginary part of the largest eigenvalue, if computed. A mode
+    /// with eigenvalue -1 changes its sign in every step; a complex one oscillates more slowly.
     pub eigenvalue: Option<(f64, f64)>,
 }
 
@@ -54,9 +52,8 @@ pub fn spectral_radius(matrix: &DMatrix<f64>) -> Radius {
     largest
 }
 
-/// Computes the spectral radius by repeated squaring. Rounding errors of the powers are relative to
-/// the largest eigenvalue. A defective eigenvalue of multiplicity m causes the error (m - 1)
-/// ln(k)/k.
+/// Computes the spectral radius by repeated squaring, with rounding errors relative to the largest
+/// eigenvalue. If that is defective of multiplicity m, the error is (m - 1) ln(k)/k.
 fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     let (mut power, mut logarithm) = (matrix.clone(), 0.0);
     for k in 0..=SQUARINGS {
@@ -71,8 +68,7 @@ fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     libm::exp(logarithm)
 }
 
-/// Squares the matrix, with sums in column order. The order of sums in the library depends on the
-/// processor.
+/// Squares the matrix by sums in column order. In the library, the order depends on the processor.
 fn square(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let mut square = DMatrix::zeros(matrix.nrows(), matrix.ncols());
     let rows = matrix.nrows();

@@ -20,8 +20,7 @@ pub fn is_looked_at(step: u64, steps: u64) -> bool {
     step <= FIRST || step.is_multiple_of(EVERY) || step == steps
 }
 
-/// Runs `subject` for `steps` steps, whose lengths (s) cycle through `dt`. Stops if the run is
-/// unstable or fails.
+/// Runs `steps` steps, whose lengths (s) cycle through `dt`. Stops on instability or failure.
 pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales) -> Trial {
     let mut monitor = TrialMonitor::new(subject, *scales);
     let mut lengths = dt.iter().cycle();
@@ -178,8 +177,7 @@ fn stored(samples: &Samples, modulus: f64) -> f64 {
         / (2.0 * modulus)
 }
 
-/// Maximum number of particles for a neighbour search. The search computes the distances of all
-/// pairs.
+/// Maximum number of particles for the neighbour search, which compares all pairs.
 const MOST: usize = 4096;
 
 /// Maximum distance between neighbours along an axis, in units of the shortest distance.
@@ -193,8 +191,7 @@ fn pressures(samples: &Samples) -> Option<Vec<f64>> {
     (samples.stress.len() == n * d * d).then(|| (0..n).map(mean).collect())
 }
 
-/// Computes the difference between the largest and the smallest mean normal stress, relative to the
-/// largest magnitude; NaN without stresses.
+/// Computes largest minus smallest mean normal stress, relative to the largest magnitude.
 pub(super) fn stress_spread(samples: &Samples) -> f64 {
     let pressures = pressures(samples).unwrap_or_default();
     let high = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -202,9 +199,8 @@ pub(super) fn stress_spread(samples: &Samples) -> f64 {
     (high - low) / high.abs().max(low.abs())
 }
 
-/// Computes the RMS difference between the mean normal stress of a particle and that of its
-/// neighbours, relative to the RMS of the mean normal stress. NaN without stresses or neighbours,
-/// or with too many particles.
+/// Computes the RMS difference of the mean normal stress of particles and of their neighbours,
+/// relative to its RMS. NaN without stresses or neighbours, or with too many particles.
 pub(super) fn checkerboard(samples: &Samples) -> f64 {
     let (n, d) = (samples.len(), samples.dimension.max(1));
     let Some(pressure) = pressures(samples).filter(|_| (2..=MOST).contains(&n)) else {
@@ -240,8 +236,7 @@ mod tests {
     use approx::assert_relative_eq;
     use mpm_subject::{RunCounters, Totals};
 
-    /// A solver with one point of mass 2 under a stress of 1, and a given kinetic energy (J) for
-    /// each step.
+    /// One point of mass 2 under a stress of 1, with a given kinetic energy (J) for each step.
     struct Scripted {
         kinetic: Vec<f64>,
         step: usize,

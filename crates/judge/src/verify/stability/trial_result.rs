@@ -75,17 +75,14 @@ pub struct Trial {
     pub null_share: f64,
     /// Largest kinetic energy in the null space, relative to the largest kinetic energy of the run.
     pub largest_null_share: f64,
-    /// Difference between the largest and the smallest mean normal stress at the end, relative to
-    /// the largest magnitude.
+    /// Largest minus smallest mean normal stress at the end, relative to the largest magnitude.
     pub stress_spread: f64,
-    /// Root mean square of the pressure differences between neighbouring particles at the end,
-    /// relative to the mean size of the pressure.
+    /// RMS of pressure differences between neighbouring particles at the end, relative to its size.
     pub checkerboard: f64,
     /// Largest stress at the end, divided by the modulus.
     pub stress: f64,
     /// Largest displacement (m) at the end.
     pub displacement: f64,
-    /// Changes of the energy by each stage of a step, summed over the run; `None` if these changes
-    /// were not recorded.
+    /// Changes of the energy by each stage of a step, summed over the run, if recorded.
     pub ledger: Option<EnergyBalance>,
 }

@@ -2,8 +2,7 @@
 
 use crate::verify::{Interval, Judgement, OrderHypothesis, Verdict};
 
-/// A change that neither restores nor raises the order is reported only if it reduces the finest
-/// error to this fraction or less.
+/// Maximum remaining fraction of the finest error for a change that only reduces the error.
 const FALL: f64 = 0.75;
 
 /// Maximum half-width of the confidence interval of a settled order.
@@ -15,8 +14,7 @@ const RISE: f64 = 0.25;
 /// Maximum difference between orders that count as equal.
 const ALIKE: f64 = 0.1;
 
-/// A change restores the order only if it reduces the distance from the theoretical order to this
-/// fraction or less.
+/// Maximum fraction of the distance from the theoretical order that a restored order leaves.
 const CLOSER: f64 = 0.5;
 
 /// Effect by which a change reveals the cause.
@@ -39,8 +37,7 @@ pub struct ChangedRun {
     pub cause: &'static str,
     /// Modification of the suite that restores the order.
     pub remedy: &'static str,
-    /// Reason why `check` rejects the suite with this change. `None` if `check` accepts the suite
-    /// or was not run.
+    /// Reason why `check` rejects the suite with this change, if it was run and does.
     pub refusal: Option<String>,
     /// Verdict on the levels of the run, for an expected order near the theoretical one.
     pub verdict: Verdict,
@@ -50,11 +47,9 @@ pub struct ChangedRun {
     pub error: f64,
     /// Finest error with the change, divided by the finest error without it.
     pub ratio: f64,
-    /// `ratio` divided by the ratio of the sizes of the exact solutions with and without the
-    /// change.
+    /// `ratio` divided by the ratio of the sizes of exact solutions with and without the change.
     pub relative_ratio: f64,
-    /// Whether the change refines the levels. Finer levels have a smaller error regardless of the
-    /// cause.
+    /// Whether the change refines the levels, which reduces the error for any cause.
     pub is_finer: bool,
     /// Whether the change increases the number of particles per cell, and nothing else.
     pub has_more_particles: bool,
@@ -137,8 +132,7 @@ impl Cause<'_> {
         }
     }
 
-    /// Returns the change of the suite that removes the cause; `None` if `check` accepts no such
-    /// change.
+    /// Returns the change that removes the cause; `None` if `check` accepts no such change.
     pub fn remedy(&self) -> Option<&str> {
         match self {
             Self::Known(finding) => finding.remedy.as_deref(),
@@ -184,8 +178,7 @@ impl Diagnosis {
         if restored.is_some() {
             return causes;
         }
-        // If a change raises the order, the exact solution did not limit the original order,
-        // although it may limit the raised order.
+        // A raised order was not limited by the exact solution before, although it may be now.
         let is_raised = run.is_some_and(|(_, evidence)| evidence == Evidence::Raised);
         let limit = self.finding(NotSmooth);
         let is_limited = limit.is_some_and(|limit| limit.explains && !is_raised);
@@ -201,16 +194,14 @@ impl Diagnosis {
         order.map_or(f64::INFINITY, |order| (order.value - self.formal_order).abs())
     }
 
-    /// Returns the run that reveals the cause, and the effect of its change. If runs restore the
-    /// order, this is the run whose order is nearest to theory. Otherwise it is the run with the
-    /// largest increase to a settled order or, without such a run, the largest decrease of the
-    /// error. The first of equal runs is returned.
+    /// Returns the run that reveals the cause, and the effect of its change: the restored order
+    /// nearest to theory or, without one, the largest increase to a settled order or, without one,
+    /// the largest decrease of the error. The first of equal runs is returned.
     pub fn found(&self) -> Option<(&ChangedRun, Evidence)> {
         let least = self.formal_order - OrderHypothesis::TOLERANCE;
         let is_near = self.finest.verdict == Verdict::Converging;
         let before = self.off(self.finest.order);
-        // An order that was already close to theory counts as restored only if the new interval is
-        // within the expected range.
+        // An order close to theory before must have its whole interval in the expected range.
         let restores = |run: &&ChangedRun| {
             let is_within = run.order.is_some_and(|order| order.low >= least);
             let is_nearer = self.off(run.order) <= CLOSER * before;
@@ -301,8 +292,7 @@ mod tests {
         assert_eq!(evidence(&diagnosis(low, to(2.4))), None);
     }
 
-    /// If the interval of an order extends beyond the theoretical range, the change does not
-    /// explain a nearly correct order.
+    /// A change to an order whose interval exceeds the range does not explain a nearly correct one.
     #[test]
     fn an_order_nearly_right_is_restored_by_a_whole_interval() {
         let near = (Converging, order(1.95, 0.04));

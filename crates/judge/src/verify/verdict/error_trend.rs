@@ -5,15 +5,13 @@ use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::window::{FEWEST_LEVELS, FLAT_ORDER};
 use std::f64::consts::LN_2;
 
-/// Minimum total growth of a divergent series: a factor of two. Smaller growth may be noise on a
-/// floor.
+/// Minimum total growth of a divergent series: a factor of two. Less may be noise on a floor.
 const LEAST_GROWTH: f64 = LN_2;
 
 /// Maximum range of ln(error) on a floor: a factor of two, to allow round-off noise of -+ 30 %.
 const FLOOR_BAND: f64 = LN_2;
 
-/// A constant error counts as a floor only if the formal order would at least halve the error over
-/// the same levels.
+/// A constant error is a floor only if the formal order would at least halve it over these levels.
 const LEAST_LOSS: f64 = LN_2;
 
 /// Minimum number of levels of a floor or a divergence: two successive pairs.
@@ -22,20 +20,16 @@ const FEWEST_OF_TREND: usize = 3;
 /// Minimum order before a floor, well above the order of a flat series.
 const LEAST_FALL: f64 = 2.5 * FLAT_ORDER;
 
-/// Minimum mean factor between successive errors of an oscillation. The factor is larger than that
-/// of noise on a floor.
+/// Minimum mean factor between successive errors of an oscillation, larger than noise on a floor.
 const LEAST_SWING: f64 = 1.5;
 
-/// Minimum ratio of total rise to total fall in an oscillation, or of total fall to total rise. A
-/// series with a smaller ratio has a trend.
+/// Minimum ratio of total rise and fall, the smaller to the larger, of an error without trend.
 const BALANCE: f64 = 1.0 / 3.0;
 
-/// Minimum number of changes between rise and fall in an oscillation. A single outlier causes two
-/// such changes.
+/// Minimum number of changes between rise and fall in an oscillation. One outlier causes two.
 const TURNS: usize = 3;
 
-/// Returns the index of the level from which the error grows until the fine end; `None` if it does
-/// not grow.
+/// Returns the index of the level from which the error grows until the fine end, if it does.
 ///
 /// The first level is returned if the line through all points has an order below -0.2, with a
 /// confidence interval that excludes zero. Otherwise the divergent part begins at the smallest

@@ -1,16 +1,14 @@
 //! Determines the cause of an error floor by refining another axis.
 //!
-//! The shape of a series shows that the error has stopped decreasing, but not why. Therefore the
-//! finest level is repeated with half the spacing of another axis, one axis at a time. An error is
-//! a sum of terms in h, dt and other spacings, and refining one spacing does not change the other
-//! terms (Roy 2005, J. Comput. Phys. 205, 131).
+//! The series shows that the error has stopped decreasing, but not why. The finest level is
+//! repeated with half the spacing of one other axis at a time, which does not change the error
+//! terms of other spacings (Roy 2005, J. Comput. Phys. 205, 131).
 
 use crate::verify::{Axis, format_number};
 use mpm_subject::named;
 
-/// Minimum relative decrease of the error, due to half the spacing of an axis, for which this axis
-/// is the cause. A decrease by a quarter means that the axis causes half of the error if its order
-/// is one, and a third if its order is two.
+/// Minimum relative decrease of the error due to half the spacing of an axis that is the cause: it
+/// then causes half of the error if its order is one, and a third if it is two.
 const LEAST_FALL: f64 = 0.25;
 
 named! {

@@ -21,16 +21,13 @@ use crate::verify::order::window::{FEWEST_LEVELS, Window};
 use crate::verify::{OrderHypothesis, Verdict};
 use std::ops::Range;
 
-/// Maximum half-width of the interval of a settled order. The orders of two methods typically
-/// differ by 0.5, which is twice this value.
+/// Maximum half-width of the interval of a settled order: half of 0.5, by which methods differ.
 pub(crate) const SETTLED: f64 = 0.25;
 
-/// Maximum half-width relative to the order, for orders above 2. At order 2 the half-width equals
-/// [`SETTLED`].
+/// Maximum half-width relative to the order above order 2, where it equals [`SETTLED`].
 const SETTLED_FRACTION: f64 = SETTLED / 2.0;
 
-/// Minimum change of the order along the window that counts as a drift: the width of the default
-/// expected range.
+/// Minimum change of the order along the window that is a drift: the default range's width.
 const DRIFT: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
 /// Significance level of a drift: noise alone causes a drift in one of a thousand series.
@@ -235,8 +232,7 @@ fn settled(
     (verdict, Reason::Against { verdict, range, overlaps })
 }
 
-/// Computes the change of the order along the window; `None` unless the change is statistically
-/// significant and larger than [`DRIFT`].
+/// Computes the change of the order along the window, if significant and larger than [`DRIFT`].
 fn drift(window: &Window, points: &[LogPoint]) -> Option<f64> {
     let drift = window.line.drift(points)?;
     (drift.p_value < DRIFT_RISK && drift.change.abs() > DRIFT).then_some(drift.change)

@@ -78,9 +78,8 @@ impl<'a> ProgramBuilder<'a> {
         self.compile(&mut frame, expr.root(), 0)
     }
 
-    /// Compiles a node and its children. A loop processes chains of left operands, which may be as
-    /// long as the source. All other operands are compiled by recursion, whose depth the parser
-    /// limits.
+    /// Compiles a node and its children. A loop processes left operands, whose chains may be as
+    /// long as the source. Other operands are compiled by recursion, whose depth the parser limits.
     fn compile(
         &mut self,
         frame: &mut Frame<'a>,
@@ -147,8 +146,7 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::new(node.span.clone(), excess))
     }
 
-    /// Appends an instruction whose result goes to register `to`. If all arguments are constant,
-    /// evaluates it immediately instead.
+    /// Appends an instruction with its result in register `to`, or evaluates it if all is constant.
     fn emit(&mut self, action: Action, to: usize) -> Operand {
         if action.arguments().all(|operand| matches!(operand, Operand::Constant(_))) {
             let mut result = [0.0];
@@ -300,8 +298,7 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::new(frame.expr.node(node).span.clone(), message))
     }
 
-    /// Replaces the loop that begins at `start` by its value if the loop has no terms, or if it
-    /// reads only constants and its own registers.
+    /// Replaces the loop from `start` by its value if it has no terms or depends on constants only.
     fn settle(&mut self, start: usize, at: usize, terms: f64) -> Operand {
         let own = |operand| match operand {
             Operand::Constant(_) => true,
