@@ -120,11 +120,11 @@ impl<'a> Line<'a> {
             label
         };
         let labels: Vec<Vec<f64>> = (0..=elements).map(label).collect();
-        let motion = problem.motion.at_places(labels.iter().map(Vec::as_slice));
+        let motion =
+            problem.motion.at_places(&labels.iter().map(Vec::as_slice).collect::<Vec<_>>());
         Self { problem, axis, elements, h, labels, motion }
     }
 
-    /// Writes the motion of a node at the current time to `now`.
     fn at_node(&mut self, node: usize, now: &mut Derivatives) {
         self.motion.derivatives(node, now);
         self.problem.complete(&self.labels[node], now);
@@ -138,7 +138,6 @@ impl<'a> Line<'a> {
             + problem.density.at(label) * (force - now.acceleration[i])
     }
 
-    /// Returns the requirement at an end of the line, where `now` is the motion at the time `t`.
     fn demand(&self, high: bool, t: f64, now: &Derivatives) -> Demand {
         let face = |face: &&Face| face.axis == self.axis && face.high == high;
         let Some(face) = self.problem.faces.iter().find(face) else { return Demand::Other };

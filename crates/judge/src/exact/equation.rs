@@ -1,5 +1,6 @@
 //! Stresses and forces of an [`Equation`], and the out-of-plane derivatives of plane motions.
 
+use super::expansion::{Swelling, piola};
 use super::formula::Slope;
 use super::law::Equation;
 use super::motion::Derivatives;
@@ -34,18 +35,23 @@ impl Equation {
         std::array::from_fn(|i| outwards * cofactor(&f, i, axis))
     }
 
-    /// Computes Div P (N/m3) from the displacement gradient and `second[k][a][b] = d2 u_k/dX_a
-    /// dX_b`. The motion must vary only along the first `dimension` axes.
-    pub fn divergence(
+    /// Computes Div P (N/m3) from grad u and `second[k][a][b] = d2 u_k/dX_a dX_b`, for a motion
+    /// that varies only along the first `dimension` axes, and for a thermal stretch.
+    pub(super) fn divergence(
         &self,
         dimension: usize,
         grad: &Tensor<f64>,
         second: &[Tensor<f64>; 3],
+        swelling: Option<&Swelling>,
     ) -> [f64; 3] {
         with_dimension!(dimension, D => {
             let slopes = |i: usize, j: usize| vector(|axis| second[i][j][axis]);
             let varying: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(grad[i][j], slopes(i, j)));
-            let stress = self.piola(&varying);
+            let theta = |all: &Swelling| Slope::new(all.theta, vector(|axis| all.grad[axis]));
+            let stress = match swelling {
+                None => self.piola(&varying),
+                Some(swelling) => piola(self, &varying, theta(swelling)),
+            };
             in_space::<D>(vector(|i| sum::<f64, D>(|j| stress[i][j].d(j))))
         })
     }
@@ -105,9 +111,9 @@ mod tests {
             tensor(|i, j| inside(i, j, [[0.2, -0.1], [0.3, -0.2]][i % 2][j % 2]));
         let second =
             std::array::from_fn(|k| tensor(|a, b| inside(k, a.max(b), 0.1 + (k + a + b) as f64)));
-        let whole = solid.divergence(3, &grad, &second);
+        let whole = solid.divergence(3, &grad, &second, None);
         assert!(whole[0] != 0.0, "something varies");
-        assert_eq!(solid.divergence(dimension, &grad, &second), whole);
+        assert_eq!(solid.divergence(dimension, &grad, &second, None), whole);
     }
 
     /// Simple shear along X, u_X = g Y. The top face keeps its area and normal; the right face

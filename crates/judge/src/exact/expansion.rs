@@ -4,10 +4,10 @@
 //! `P = theta^(D-1) P_e(F/theta)`, which is the derivative of the energy `theta^D W(F/theta)` of
 //! the expanded body. In small-strain theory, `P = C : eps - (3 lambda + 2 mu)(theta - 1) I`.
 
-use super::formula::{Number, Slope};
+use super::formula::Number;
 use super::heat::TemperatureDerivatives;
 use super::law::Equation;
-use super::tensor::{Tensor, in_space, sum, tensor, unit, vector};
+use super::tensor::{Tensor, tensor, unit};
 use mpm_subject::with_dimension;
 
 /// Thermal expansion, linear in the temperature.
@@ -23,7 +23,7 @@ pub struct Expansion {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Swelling {
     pub(super) theta: f64,
-    grad: [f64; 3],
+    pub(super) grad: [f64; 3],
 }
 
 impl Expansion {
@@ -36,7 +36,7 @@ impl Expansion {
 }
 
 /// Computes P (Pa) in D dimensions at the thermal stretch `theta`.
-fn piola<T: Number, const D: usize>(
+pub(super) fn piola<T: Number, const D: usize>(
     equation: &Equation,
     grad: &Tensor<T, D>,
     theta: T,
@@ -86,23 +86,6 @@ pub(super) fn swollen_cauchy(
     equation.cauchy(&elastic)
 }
 
-/// Computes Div P (N/m3) with thermal expansion.
-pub(super) fn swollen_divergence(
-    equation: &Equation,
-    dimension: usize,
-    grad: &Tensor<f64>,
-    second: &[Tensor<f64>; 3],
-    swelling: &Swelling,
-) -> [f64; 3] {
-    with_dimension!(dimension, D => {
-        let slopes = |i: usize, j: usize| vector(|axis| second[i][j][axis]);
-        let varying: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(grad[i][j], slopes(i, j)));
-        let theta = Slope::new(swelling.theta, vector(|axis| swelling.grad[axis]));
-        let stress = piola(equation, &varying, theta);
-        in_space::<D>(vector(|i| sum::<f64, D>(|j| stress[i][j].d(j))))
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -141,7 +124,7 @@ mod tests {
             Some(_) => SmallStrainLaw::new(50.0, 0.0).into(),
             None => HenckyLaw::new(50.0, 0.0).into(),
         };
-        let force = swollen_divergence(&uniaxial, 1, &bar, &second, &swelling);
+        let force = uniaxial.divergence(1, &bar, &second, Some(&swelling));
         assert!(force[0].abs() < 1e-12, "{force:?}");
     }
 

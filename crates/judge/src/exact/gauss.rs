@@ -26,13 +26,17 @@ fn rule<const N: usize>() -> [(f64, f64); N] {
 /// Returns points and weights on the box with the intervals `axes`, each divided into `panels`.
 /// Without axes, returns a single point of weight 1.
 pub(crate) fn points(axes: &[(f64, f64)], panels: usize) -> Vec<(Vec<f64>, f64)> {
-    let rule = rule::<POINTS>();
+    points_by(&rule::<POINTS>(), axes, panels)
+}
+
+fn points_by(rule: &[(f64, f64)], axes: &[(f64, f64)], panels: usize) -> Vec<(Vec<f64>, f64)> {
     let mut all = vec![(Vec::new(), 1.0)];
     for (low, high) in axes {
         let half = 0.5 * (high - low) / panels as f64;
         let middle = |panel: usize| low + half * (2 * panel + 1) as f64;
-        let along = (0..panels)
-            .flat_map(|panel| rule.map(|(xi, weight)| (middle(panel) + half * xi, half * weight)));
+        let along = (0..panels).flat_map(|panel| {
+            rule.iter().map(move |(xi, weight)| (middle(panel) + half * xi, half * weight))
+        });
         let along: Vec<(f64, f64)> = along.collect();
         let extended = |(place, weight): (Vec<f64>, f64)| {
             let longer =
@@ -49,29 +53,16 @@ pub(crate) fn points(axes: &[(f64, f64)], panels: usize) -> Vec<(Vec<f64>, f64)>
 /// three dimensions, to limit a cell to 64 points.
 #[derive(Debug, Clone)]
 pub struct CellQuadrature {
-    /// Points of the cube from -1 to 1, with weights whose sum is 1; unused coordinates are zero.
-    points: Vec<([f64; 3], f64)>,
-    dimension: usize,
+    /// Points of the cube from -1 to 1, with weights.
+    points: Vec<(Vec<f64>, f64)>,
 }
 
 impl CellQuadrature {
     /// Creates the quadrature for cells in `dimension` dimensions.
     pub fn new(dimension: usize) -> Self {
-        let along: Vec<(f64, f64)> =
-            if dimension < 3 { rule::<POINTS>().into() } else { rule::<4>().into() };
-        let mut points = vec![([0.0; 3], 1.0)];
-        for axis in 0..dimension {
-            let extended = |(place, weight): &([f64; 3], f64)| {
-                let (mut place, weight) = (*place, *weight);
-                let longer = move |(xi, share): &(f64, f64)| {
-                    place[axis] = *xi;
-                    (place, 0.5 * weight * share)
-                };
-                along.iter().map(longer).collect::<Vec<_>>()
-            };
-            points = points.iter().flat_map(extended).collect();
-        }
-        Self { points, dimension }
+        let cube = vec![(-1.0, 1.0); dimension];
+        let few = || points_by(&rule::<4>(), &cube, 1);
+        Self { points: if dimension < 3 { points(&cube, 1) } else { few() } }
     }
 
     /// Returns the integral of `value` over the part of a cell where `holds` returns true. The cell
@@ -86,16 +77,15 @@ impl CellQuadrature {
         let mut sum = 0.0;
         for (xi, weight) in &self.points {
             let mut place = [0.0; 3];
-            for axis in 0..self.dimension {
-                place[axis] = centre[axis] + half[axis] * xi[axis];
+            for (axis, xi) in xi.iter().enumerate() {
+                place[axis] = centre[axis] + half[axis] * xi;
             }
-            let place = &place[..self.dimension];
+            let place = &place[..xi.len()];
             if holds(place) {
                 sum += weight * value(place);
             }
         }
-        let volume: f64 = half.iter().map(|half| 2.0 * half).product();
-        volume * sum
+        half.iter().product::<f64>() * sum
     }
 }
 

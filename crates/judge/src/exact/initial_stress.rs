@@ -144,7 +144,6 @@ mod tests {
         assert_eq!(s0.cauchy(&[2.0, 5.0], &GRAD, false), s0.at(&[2.0, 5.0]));
     }
 
-    /// Creates a problem with a varying initial stress, a manufactured motion and gravity.
     fn prestressed(dimension: usize) -> Problem {
         let components = [(0, 0, "3*sin(X)"), (1, 1, "X - Y"), (0, 1, "Y^2"), (2, 2, "X*Z")];
         let inside = components.into_iter().filter(|(_, j, _)| *j < dimension);

@@ -3,6 +3,7 @@
 //! A suite gives its solution as formulas ([`formula`]), and its problem becomes a [`Problem`].
 //! [`check`](Problem::check) substitutes the formulas into it before any solver runs.
 
+pub(crate) mod bisection;
 mod check;
 mod condition;
 mod correction;

@@ -8,7 +8,8 @@ use mpm_subject::with_dimension;
 /// are the reference coordinates (one per component), followed by t.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    components: Vec<Formula>,
+    pub(super) components: Vec<Formula>,
+    pub(super) dimension: usize,
 }
 
 /// Derivatives of a motion at one point and time; zero on axes that the body does not have.
@@ -31,7 +32,7 @@ pub struct Derivatives {
 impl Motion {
     /// Creates a motion from its components.
     pub fn new(components: Vec<Formula>) -> Self {
-        Self { components }
+        Self { dimension: components.len(), components }
     }
 
     /// Returns the text of the formulas.
@@ -51,7 +52,7 @@ impl Motion {
 
     /// Returns the number of space dimensions.
     pub fn dimension(&self) -> usize {
-        self.components.len()
+        self.dimension
     }
 
     /// Evaluates component i of the displacement.
@@ -70,12 +71,7 @@ impl Motion {
 
     /// Prepares the evaluation of the motion at the reference positions `labels` (m). This call
     /// computes the terms that do not depend on time.
-    pub fn at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
-        self.jets_at(&labels.collect::<Vec<_>>())
-    }
-
-    // Not generic, so the evaluation is compiled only in this package.
-    fn jets_at(&self, labels: &[&[f64]]) -> Box<dyn Places> {
+    pub fn at_places(&self, labels: &[&[f64]]) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Jet<{ D + 1 }>>(labels, Jet::variable))
         })
@@ -83,11 +79,7 @@ impl Motion {
 
     /// Prepares the evaluation like [`Self::at_places`], but with first derivatives only, at a
     /// third of the cost. Second derivatives are not written.
-    pub fn slopes_at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
-        self.slopes_at(&labels.collect::<Vec<_>>())
-    }
-
-    fn slopes_at(&self, labels: &[&[f64]]) -> Box<dyn Places> {
+    pub fn slopes_at_places(&self, labels: &[&[f64]]) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Slope<{ D + 1 }>>(labels, Slope::variable))
         })
@@ -237,7 +229,7 @@ mod tests {
     fn slopes_are_bit_identical_to_full_derivatives() {
         let motion = motion(["sin(2*X - t)*exp(-Y^2)", "atan2(Y, X + 2)*max(t - X, 0)^2/(1 + t)"]);
         let labels = [[0.1, 0.7], [0.9, 0.0], [0.3, -0.2]];
-        let mut places = motion.slopes_at_places(labels.iter().map(<[f64; 2]>::as_slice));
+        let mut places = motion.slopes_at_places(&labels.each_ref().map(<[f64; 2]>::as_slice));
         for t in [0.0, 0.45, 1.3] {
             places.set_time(t);
             for (place, label) in labels.iter().enumerate() {

@@ -7,7 +7,7 @@
 use super::condition::Face;
 use super::density::Density;
 use super::equation::complete_in_plane;
-use super::expansion::{Swelling, swollen_cauchy, swollen_divergence, swollen_piola};
+use super::expansion::{Swelling, swollen_cauchy, swollen_piola};
 use super::formula::{Formula, Number, Slope};
 use super::heat::Conduction;
 use super::initial_stress::InitialStress;
@@ -196,7 +196,6 @@ impl Problem {
         all.fold(0.0, |sum, term| sum + term.resistance(t, now.velocity[i], &unbalanced))
     }
 
-    /// Computes the Cauchy stress (Pa) at one point and time.
     fn cauchy_at(&self, label: &[f64], t: f64) -> Tensor<f64> {
         let body = self.body_at(label);
         let grad = body.derivatives(label, t).grad;
@@ -261,7 +260,7 @@ impl Problem {
         let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
         let force = match self.swelling(label, t) {
             None => self.divergence_of_law(axes, label, grad, second),
-            Some(swelling) => swollen_divergence(&self.equation, axes, grad, second, &swelling),
+            swelling => self.equation.divergence(axes, grad, second, swelling.as_ref()),
         };
         let hoops = self.hoop_force(label, t, now);
         let force: [f64; 3] = vector(|i| force[i] + hoops[i]);
@@ -296,7 +295,7 @@ impl Problem {
         grad: &Tensor<f64>,
         second: &[Tensor<f64>; 3],
     ) -> [f64; 3] {
-        let force = self.equation.divergence(axes, grad, second);
+        let force = self.equation.divergence(axes, grad, second, None);
         if self.density.uniform().is_some() {
             let factor = self.factor_at(label);
             return vector(|i| factor * force[i]);
@@ -309,7 +308,6 @@ impl Problem {
         })
     }
 
-    /// Returns the density factor of the law's stresses and energies at `label`.
     pub(super) fn factor_at(&self, label: &[f64]) -> f64 {
         self.equation.density_factor(self.density.at(label))
     }
@@ -391,7 +389,8 @@ impl Forcing {
 
     // Not generic, so the evaluation is compiled only in this package.
     fn at_labels(problem: &Problem, labels: Vec<Vec<f64>>) -> Self {
-        let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
+        let places =
+            problem.motion.at_places(&labels.iter().map(Vec::as_slice).collect::<Vec<_>>());
         let varies = problem.terms.iter().any(|term| !term.is_uniform());
         let needed = varies
             || !problem.initial_stress.is_none()

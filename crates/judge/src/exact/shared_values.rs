@@ -23,7 +23,6 @@ struct Tables {
     places: Vec<Vec<f64>>,
     /// Values at all positions of a set. Key: quantity, index of the set and bits of the time.
     values: BTreeMap<(SharedQuantity, usize, u64), Arc<[f64]>>,
-    /// Number of stored `f64`.
     size: usize,
 }
 
@@ -59,7 +58,6 @@ impl SharedValues {
         self.tables().values.get(&(quantity, places?, t.to_bits())).cloned()
     }
 
-    /// Stores values unless the cache is full.
     pub(super) fn put(
         &self,
         quantity: SharedQuantity,

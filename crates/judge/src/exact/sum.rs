@@ -178,7 +178,8 @@ impl BodySum {
         let mut sums = vec![([0.0; 3], 0.0); times.len()];
         for sites in self.sites.chunk_by(|a, b| a.body == b.body) {
             let problem = &self.bodies[sites[0].body];
-            let mut motion = problem.motion.at_places(sites.iter().map(|site| &site.label[..]));
+            let labels: Vec<&[f64]> = sites.iter().map(|site| &site.label[..]).collect();
+            let mut motion = problem.motion.at_places(&labels);
             for (sum, t) in sums.iter_mut().zip(times) {
                 motion.set_time(*t);
                 for (place, SumSite { face, label, weight, .. }) in sites.iter().enumerate() {
@@ -199,7 +200,6 @@ impl BodySum {
     }
 }
 
-/// Returns the quadrature points with `panels` on each axis of each body.
 fn sites(bodies: &[Problem], region: &SumRegion, panels: usize) -> Vec<SumSite> {
     let of_body = |(body, problem): (usize, &Problem)| match region {
         SumRegion::Body => inside(problem, panels)
@@ -263,7 +263,6 @@ mod tests {
         (value, value.iter().map(|component| component.abs()).sum())
     }
 
-    /// Creates a bar with E = rho = 2 that oscillates between two walls.
     fn swinging() -> Problem {
         bar("sin(pi*X)*sin(pi*t)/100", fixed())
     }

@@ -74,6 +74,16 @@ pub(super) fn det<T: Number, const D: usize>(f: &Tensor<T, D>, cofactor: &Tensor
     sum::<T, D>(|j| f[0][j] * cofactor[0][j])
 }
 
+/// Returns `F = I + grad u`, its cofactors and its determinant.
+#[inline]
+pub(super) fn deformation<T: Number, const D: usize>(
+    grad: &Tensor<T, D>,
+) -> (Tensor<T, D>, Tensor<T, D>, T) {
+    let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+    let cofactors: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
+    (f, cofactors, det(&f, &cofactors))
+}
+
 /// Computes the Cauchy stress `P F^T/J` for a given P, in the units of P.
 pub(super) fn pushed_forward(piola: &Tensor<f64>, grad: &Tensor<f64>) -> Tensor<f64> {
     let f: Tensor<f64> = tensor(|i, j| grad[i][j] + f64::from(u8::from(i == j)));

@@ -12,7 +12,6 @@ use mpm_subject::PlaneState;
 use rstest::rstest;
 use std::sync::Arc;
 
-/// Checks only the momentum balance in weak form.
 fn momentum(problem: &Problem) -> Result<(), Violation> {
     super::check::weak::momentum(problem, &Survey::new(problem))
 }
@@ -34,7 +33,6 @@ pub(super) fn assert_outcome(found: Result<(), Violation>, violated: &str) {
 
 const NAMES: [&str; 4] = ["X", "Y", "Z", "t"];
 
-/// Parses a formula of these variables.
 pub(super) fn bind(source: &str, variables: &[&str]) -> Formula {
     Formula::bind(&Expr::parse(source).unwrap(), &Scope::new(), variables).unwrap()
 }
@@ -83,27 +81,23 @@ impl Term for LocallyDamped {
 }
 
 /// A condition given by its requirements at a point.
-pub(super) struct Demands<F>(F);
+pub(super) struct Demands(Box<dyn Fn(&dyn FacePoint) -> Result<(), Violation> + Send + Sync>);
 
-impl<F> Demands<F>
-where
-    F: Fn(&dyn FacePoint) -> Result<(), Violation> + Send + Sync + 'static,
-{
-    pub(super) fn condition(demands: F) -> Arc<dyn Condition> {
-        Arc::new(Self(demands))
+impl Demands {
+    pub(super) fn condition(
+        demands: impl Fn(&dyn FacePoint) -> Result<(), Violation> + Send + Sync + 'static,
+    ) -> Arc<dyn Condition> {
+        Arc::new(Self(Box::new(demands)))
     }
 }
 
-impl<F> std::fmt::Debug for Demands<F> {
+impl std::fmt::Debug for Demands {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("Demands")
     }
 }
 
-impl<F> Condition for Demands<F>
-where
-    F: Fn(&dyn FacePoint) -> Result<(), Violation> + Send + Sync,
-{
+impl Condition for Demands {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
         (self.0)(point)
     }
@@ -186,14 +180,12 @@ fn ring() -> Problem {
     Problem { from: vec![1.0, 0.0], to: vec![2.0, 1.0], ..held(2) }
 }
 
-/// The weak form on its own detects a missing force.
 #[rstest]
 fn weak_form_detects_a_missing_force(#[values(1, 2, 3)] dimension: usize) {
     let unforced = Problem { manufactured: false, ..held(dimension) };
     assert_violated(momentum(&unforced), "momentum balance");
 }
 
-/// The weak form on its own detects a force that was computed for plane strain.
 #[rstest]
 fn weak_form_detects_a_force_for_another_plane_state(
     #[values(PlaneState::Strain, PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,

@@ -39,7 +39,6 @@ impl LargestViolation {
         }
     }
 
-    /// Returns the largest violation as an error, if there is one.
     pub(super) fn into_result(self) -> Result<(), Violation> {
         self.0.map_or(Ok(()), Err)
     }

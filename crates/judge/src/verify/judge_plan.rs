@@ -99,7 +99,6 @@ impl JudgePlan<'_> {
         }
     }
 
-    /// Divides a difference in the judged norm by the scale of the error, if there is one.
     fn relative(&self, difference: f64) -> f64 {
         self.scale.map_or(difference, |scale| difference / scale)
     }

@@ -12,7 +12,8 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     const PER_AXIS: usize = 20;
     const GOLDEN: usize = 8;
     let places = raster(problem, PER_AXIS);
-    let mut motion = problem.motion.slopes_at_places(places.iter().map(Vec::as_slice));
+    let labels: Vec<&[f64]> = places.iter().map(Vec::as_slice).collect();
+    let mut motion = problem.motion.slopes_at_places(&labels);
     let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
     let mut now = Derivatives::default();
     let even = (0..=PER_AXIS).map(|step| step as f64 / PER_AXIS as f64);
@@ -77,9 +78,10 @@ pub(crate) struct Extremes {
 impl Extremes {
     pub(crate) fn of(problem: &Problem) -> Self {
         let labels = raster(problem, ALONG[problem.dimension().clamp(1, 3) - 1]);
-        let mut motion = problem.motion.at_places(labels.iter().map(Vec::as_slice));
+        let labels: Vec<&[f64]> = labels.iter().map(Vec::as_slice).collect();
+        let mut motion = problem.motion.at_places(&labels);
         let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let of_place = |label: &Vec<f64>| problem.initial_stress.at(label);
+        let of_place = |label: &&[f64]| problem.initial_stress.at(label);
         let components = labels.iter().flat_map(of_place).flatten();
         let initial_stress = components.fold(0.0, |most: f64, c| most.max(c.abs()));
         let mut all = Self { initial_stress, reach: [none; 3], ..Self::default() };

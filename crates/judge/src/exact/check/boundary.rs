@@ -16,7 +16,6 @@ pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     conditions(problem, &problem.faces, survey)
 }
 
-/// Checks some of the `faces` of the body, as [`boundary`] does.
 pub(super) fn conditions(
     problem: &Problem,
     faces: &[Face],

@@ -36,7 +36,6 @@ pub(crate) fn at_wall(
     coulomb(event, axis, d, &rub, [allowed, tolerance * velocity], &wall)
 }
 
-/// Contact state at a point of the checked surface.
 pub(crate) struct InterfaceTraction {
     /// Traction that the other surface exerts (Pa).
     pub(crate) traction: [f64; 3],

@@ -76,7 +76,6 @@ impl SpaceTimePatch {
         self.part(place, 0.5)
     }
 
-    /// Returns the part of the patch around `place`, shortened by `factor` on every axis.
     fn part(&self, place: &[f64], factor: f64) -> Self {
         let half: Vec<f64> = self.half.iter().map(|half| factor * half).collect();
         let within = |axis: usize| {
@@ -99,7 +98,6 @@ impl SpaceTimePatch {
         largest.stored * slope(d) + largest.flow * flow + largest.supply * supply
     }
 
-    /// Returns the midpoint-rule points of the patch, `per_axis` on each axis.
     pub(super) fn raster(&self, per_axis: usize) -> Raster {
         let d = self.dimension();
         let axes: Vec<Vec<AxisPoint>> = (0..d).map(|a| self.axis(a, per_axis)).collect();
@@ -133,7 +131,6 @@ impl SpaceTimePatch {
 pub(crate) struct Raster {
     /// Points in space, one coordinate per axis; the first axis varies fastest.
     pub(crate) points: Vec<Vec<AxisPoint>>,
-    /// Points in time, shared by all points in space.
     pub(crate) times: Vec<AxisPoint>,
 }
 

@@ -100,7 +100,6 @@ impl Magnitudes {
     }
 }
 
-/// The motion and the forces at an event inside the body.
 #[derive(Debug)]
 pub(crate) struct SurveyPoint {
     pub(crate) event: Event,

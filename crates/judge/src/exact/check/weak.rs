@@ -152,7 +152,6 @@ impl Sums {
         }
     }
 
-    /// Returns the difference of gain and loss, relative to the sum of the magnitudes of all terms.
     fn imbalance(&self) -> f64 {
         (self.gain - self.loss) / self.size.max(self.smallest)
     }
@@ -219,8 +218,8 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
     let labels = labels(points);
     let motion = &problem.motion;
     let distinct = DistinctPlaces::new(motion, points.len(), times.len());
-    let at = distinct.first.iter().map(|point| labels[*point].as_slice());
-    let mut places = if only_first { motion.slopes_at_places(at) } else { motion.at_places(at) };
+    let at: Vec<&[f64]> = distinct.first.iter().map(|point| labels[*point].as_slice()).collect();
+    let mut places = if only_first { motion.slopes_at_places(&at) } else { motion.at_places(&at) };
     let mut fields = vec![Derivatives::default(); distinct.first.len()];
     let mut all = [Sums::new(smallest); 3];
     for time in times {
@@ -256,7 +255,6 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
 pub(super) struct DistinctPlaces {
     /// The first raster point at each position.
     pub(super) first: Vec<usize>,
-    /// Index of the position of each point.
     pub(super) of_point: Vec<usize>,
 }
 

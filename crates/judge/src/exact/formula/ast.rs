@@ -99,7 +99,6 @@ impl Expr {
 }
 
 impl Node {
-    /// Returns the span of `name` at the start of this node.
     pub(super) fn head(&self, name: &str) -> Range<usize> {
         self.span.start..self.span.start + name.len()
     }

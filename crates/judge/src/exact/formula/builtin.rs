@@ -49,7 +49,6 @@ impl Binary {
     }
 }
 
-/// The only named constant of the language.
 pub(super) const PI: &str = "pi";
 const SUM: &str = "sum";
 
@@ -79,7 +78,6 @@ pub(super) fn names<'a>() -> impl Iterator<Item = &'a str> {
     unary.chain(binary).chain([SUM, PI])
 }
 
-/// Formats the count: `1 argument`, `2 arguments`.
 pub(super) fn arguments(count: usize) -> String {
     format!("{count} argument{}", if count == 1 { "" } else { "s" })
 }

@@ -150,7 +150,6 @@ impl<const N: usize, H: Hessian<N>> Dual<N, H> {
         if is_finite || !H::IS_KNOWN { dual } else { dual.flattened(|i| self.is_flat(i)) }
     }
 
-    /// Whether no derivative with respect to variable `i` differs from zero.
     fn is_flat(&self, i: usize) -> bool {
         self.gradient[i] == 0.0 && (0..N).all(|j| self.hessian.at(i, j) == 0.0)
     }

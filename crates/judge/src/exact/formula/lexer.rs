@@ -85,7 +85,6 @@ impl<'a> Lexer<'a> {
         self.source.as_bytes().get(self.at + ahead).copied()
     }
 
-    /// Skips bytes that `accept` accepts, and returns their number.
     fn skip(&mut self, accept: impl Fn(u8) -> bool) -> usize {
         let start = self.at;
         while self.peek(0).is_some_and(&accept) {
@@ -193,7 +192,6 @@ pub struct FormulaError {
 }
 
 impl FormulaError {
-    /// Creates an error in the formula itself, without help.
     pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> Self {
         Self { message: message.into(), span, help: None, within: None, unknown: None }
     }

@@ -157,7 +157,6 @@ impl<'a> Parser<'a> {
         are_numbers.then(|| Some(format!("{}.{}", text(before)?, text(after)?)))?
     }
 
-    /// Returns the error for a missing operator.
     fn missing_operator(&self, expected: &str) -> FormulaError {
         let error = self.expected(expected);
         match self.peek() {

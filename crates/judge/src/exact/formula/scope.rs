@@ -25,7 +25,6 @@ pub(super) struct Function {
     pub(super) body: Expr,
 }
 
-/// The expression of a table, and the name of its argument.
 #[derive(Debug, Clone)]
 pub(super) struct Tabulated {
     pub(super) by: String,

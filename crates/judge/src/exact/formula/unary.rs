@@ -101,12 +101,10 @@ fn bessel_j1_curvature(x: f64, j1: f64) -> f64 {
     if x == 0.0 { 0.0 } else { libm::jn(2, x) / x - j1 }
 }
 
-/// Computes the derivative of W from the value `w` of W.
 fn lambert_slope(w: f64) -> f64 {
     exp(-w) / (1.0 + w)
 }
 
-/// Computes the second derivative of W from the value `w` of W.
 fn lambert_curvature(w: f64) -> f64 {
     -square(lambert_slope(w)) * (2.0 + w) / (1.0 + w)
 }

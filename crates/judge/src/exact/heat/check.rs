@@ -231,10 +231,10 @@ fn sums(problem: &Conduction, raster: &Raster, smallest: f64, middle: f64) -> Su
     let d = problem.dimension();
     let Raster { points, times } = raster;
     let labels = labels(points);
-    let all_labels = || labels.iter().map(Vec::as_slice);
-    let mut warm = problem.temperature.at_places(all_labels());
-    let mut places = problem.motion.as_ref().map(|motion| motion.at_places(all_labels()));
-    let (mut all, mut motion) = (Sums::new(smallest), Derivatives::default());
+    let labels: Vec<&[f64]> = labels.iter().map(Vec::as_slice).collect();
+    let mut warm = problem.temperature.at_places(&labels);
+    let mut places = problem.motion.as_ref().map(|motion| motion.at_places(&labels));
+    let (mut all, [mut motion, mut now]) = (Sums::new(smallest), [Derivatives::default(); 2]);
     for time in times {
         warm.set_time(time.at);
         if let Some(places) = &mut places {
@@ -244,14 +244,15 @@ fn sums(problem: &Conduction, raster: &Raster, smallest: f64, middle: f64) -> Su
             if let Some(places) = &mut places {
                 places.derivatives(place, &mut motion);
             }
-            let now = warm.derivatives(place);
+            warm.derivatives(place, &mut now);
+            let now = TemperatureDerivatives::from(now);
             let mut event = [*time; 4];
             event[..d].copy_from_slice(point);
             let (phi, slope) = bump(&event[..=d]);
             let stored = problem.density * problem.capacity * (now.value - middle) * slope[d];
             let inflow = problem.inflow(&motion, &now);
             let flow: f64 = (0..d).map(|a| inflow[a] * slope[a]).sum();
-            let source = problem.source(&labels[place], time.at, &motion, &now);
+            let source = problem.source(labels[place], time.at, &motion, &now);
             let source = problem.density * source * phi;
             let size = stored.abs() + flow.abs() + source.abs();
             all.add(-stored, source - flow, size, &event[..=d]);
@@ -266,7 +267,6 @@ pub(super) fn extent(problem: &Conduction) -> SpaceTimeBox<'_> {
     SpaceTimeBox { from: &problem.from, to: &problem.to, start: 0.0, end: problem.until }
 }
 
-/// Evaluates motion and temperature at events distributed evenly over the body and the run.
 pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
     let events = extent(problem).spread(EVENTS, |_| true, &mut Random::new(1));
     let point = |event: Event| {

@@ -1,6 +1,6 @@
 //! Heat problem of an exact temperature: body, conditions on faces, and heat source.
 
-use super::field::{Temperature, TemperatureDerivatives, TemperaturePlaces, divergence, slope};
+use super::field::{Temperature, TemperatureDerivatives, divergence, slope};
 use crate::exact::formula::Formula;
 use crate::exact::motion::{Derivatives, Motion, Places, variables};
 use crate::exact::truth::Truth;
@@ -169,7 +169,7 @@ pub fn source_at(formula: &Formula, label: &[f64], t: f64, temperature: f64) -> 
 /// The manufactured heat source at fixed positions.
 pub struct HeatForcing {
     problem: Conduction,
-    warm: Box<dyn TemperaturePlaces>,
+    warm: Box<dyn Places>,
     motion: Option<Box<dyn Places>>,
 }
 
@@ -181,10 +181,9 @@ impl HeatForcing {
 
     // Not generic, so the evaluation is compiled only in this package.
     fn at_labels(problem: &Conduction, labels: &[&[f64]]) -> Self {
-        let all = || labels.iter().copied();
         Self {
-            warm: problem.temperature.at_places(all()),
-            motion: problem.motion.as_ref().map(|motion| motion.at_places(all())),
+            warm: problem.temperature.at_places(labels),
+            motion: problem.motion.as_ref().map(|motion| motion.at_places(labels)),
             problem: problem.clone(),
         }
     }
@@ -196,12 +195,13 @@ impl HeatForcing {
         if let Some(motion) = &mut self.motion {
             motion.set_time(t);
         }
-        let mut moved = Derivatives::default();
+        let [mut moved, mut now] = [Derivatives::default(); 2];
         for (place, source) in into.iter_mut().enumerate() {
             if let Some(motion) = &mut self.motion {
                 motion.derivatives(place, &mut moved);
             }
-            *source = self.problem.balance(&moved, &self.warm.derivatives(place));
+            self.warm.derivatives(place, &mut now);
+            *source = self.problem.balance(&moved, &now.into());
         }
     }
 }

@@ -17,6 +17,7 @@
 
 use super::contract::ConstitutiveLaw;
 use super::uniaxial_flow::uniaxial_piola;
+use crate::exact::bisection::bisect;
 use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
 
@@ -107,15 +108,9 @@ impl CamClayLaw {
     }
 
     /// Finds the root of C between two ratios at which C has opposite signs.
-    fn root(&self, [mut low, mut high]: [f64; 2]) -> f64 {
+    fn root(&self, [low, high]: [f64; 2]) -> f64 {
         let rises = self.cubic(high) > 0.0;
-        loop {
-            let middle = 0.5 * (low + high);
-            if !(low < middle && middle < high) {
-                return middle;
-            }
-            if (self.cubic(middle) > 0.0) == rises { high = middle } else { low = middle }
-        }
+        bisect(low, high, |eta| (self.cubic(eta) > 0.0) == rises)
     }
 
     /// Returns the coefficients `b/2` and `e` of the partial fraction
@@ -161,18 +156,13 @@ impl CamClayLaw {
         if start == self.poles[0][0] {
             return [beyond / self.compression, start];
         }
-        let (mut low, mut high) = (0.0, 1.0);
-        while self.beyond_yield(high)[1] < beyond {
+        let reaches = |u: f64| !(self.beyond_yield(u)[1] < beyond);
+        let mut high = 1.0;
+        while !reaches(high) {
             high *= 2.0;
         }
-        loop {
-            let middle = 0.5 * (low + high);
-            let [pressure, compaction, eta] = self.beyond_yield(middle);
-            if !(low < middle && middle < high) {
-                return [pressure, eta];
-            }
-            if compaction < beyond { low = middle } else { high = middle }
-        }
+        let [pressure, _, eta] = self.beyond_yield(bisect(0.0, high, reaches));
+        [pressure, eta]
     }
 
     /// Computes `tau11` and `tau22` (Pa) at the logarithmic strain `strain`; NaN for softening.

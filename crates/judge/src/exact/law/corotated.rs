@@ -3,7 +3,7 @@
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, cofactor, det, dilation, rotation, sum, tensor, unit};
+use crate::exact::tensor::{Tensor, deformation, dilation, rotation, sum, tensor, unit};
 
 /// Fixed corotated elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,9 +23,8 @@ impl ConstitutiveLaw for CorotatedLaw {
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
         let (lambda, twice_mu) = (T::from(self.0.lambda), T::from(2.0 * self.0.mu));
-        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
-        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
-        let pressure = lambda * (det(&f, &cofactor) - T::from(1.0));
+        let (f, cofactor, det) = deformation(grad);
+        let pressure = lambda * (det - T::from(1.0));
         let turn = rotation(&f);
         tensor(|i, j| {
             let stretch = grad[i][j] + (unit::<T>(i, j) - turn[i][j]);

@@ -3,7 +3,7 @@
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, area, cofactor, det, log_strain, product, sum, tensor, unit};
+use crate::exact::tensor::{Tensor, area, deformation, log_strain, product, sum, tensor, unit};
 
 /// Hencky elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,9 +23,7 @@ impl ConstitutiveLaw for HenckyLaw {
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
         let (lambda, mu) = (T::from(self.0.lambda), T::from(self.0.mu));
-        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
-        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
-        let det = det(&f, &cofactor);
+        let (f, cofactor, det) = deformation(grad);
         let (strain, pressure) = (log_strain(&f), lambda * Number::ln(det));
         let tau = tensor(|i, j| pressure * unit(i, j) + (mu + mu) * strain[i][j]);
         product(&tau, &tensor(|i, j| cofactor[i][j] / det))

@@ -8,7 +8,7 @@
 use super::contract::{ConstitutiveLaw, Lame};
 use super::uniaxial_flow::{UniaxialLaw, UniaxialYield};
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, cofactor, det, log_strain, product, sum, tensor, unit};
+use crate::exact::tensor::{Tensor, deformation, log_strain, product, sum, tensor, unit};
 
 /// J2 plasticity with Hencky elasticity in uniaxial strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,9 +47,7 @@ impl ConstitutiveLaw for J2Law {
     const HAS_HISTORY: bool = true;
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
-        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
-        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
-        let det = det(&f, &cofactor);
+        let (f, cofactor, det) = deformation(grad);
         let tau = kirchhoff(&log_strain(&f), Number::ln(det), self);
         product(&tau, &tensor(|i, j| cofactor[i][j] / det))
     }

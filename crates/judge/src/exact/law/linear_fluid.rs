@@ -3,7 +3,7 @@
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, cofactor, det, dilation, tensor, unit};
+use crate::exact::tensor::{Tensor, deformation, dilation, tensor};
 
 /// A fluid whose pressure is proportional to the dilation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,9 +24,8 @@ impl ConstitutiveLaw for LinearFluidLaw {
         "linear fluid, rho0 u_tt = Div P + rho0 b, P = -p J F^-T, p = -K (J - 1)";
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
-        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
-        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
-        let tension = T::from(self.bulk) * (det(&f, &cofactor) - T::from(1.0));
+        let (_, cofactor, det) = deformation(grad);
+        let tension = T::from(self.bulk) * (det - T::from(1.0));
         tensor(|i, j| tension * cofactor[i][j])
     }
 

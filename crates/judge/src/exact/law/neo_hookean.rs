@@ -2,7 +2,7 @@
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, area, cofactor, det, dilation, sum, tensor, unit};
+use crate::exact::tensor::{Tensor, area, deformation, dilation, sum, tensor};
 
 /// Compressible neo-Hookean elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,9 +32,7 @@ impl ConstitutiveLaw for NeoHookeanLaw {
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
         let (lambda, mu) = (T::from(self.0.lambda), T::from(self.0.mu));
-        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
-        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
-        let det = det(&f, &cofactor);
+        let (f, cofactor, det) = deformation(grad);
         let pressure = lambda * Number::ln(det) - mu;
         tensor(|i, j| pressure * cofactor[i][j] / det + mu * f[i][j])
     }

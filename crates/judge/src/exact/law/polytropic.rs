@@ -5,7 +5,7 @@
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, cofactor, det, dilation, tensor, unit};
+use crate::exact::tensor::{Tensor, deformation, dilation, tensor};
 
 /// A gas whose pressure is a power of the density.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,9 +27,8 @@ impl ConstitutiveLaw for PolytropicLaw {
         "polytropic gas, rho0 u_tt = Div P + rho0 b, P = -p J F^-T, p = K (rho0/J)^g";
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
-        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
-        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
-        let expansion = Number::pow(det(&f, &cofactor), T::from(self.exponent));
+        let (_, cofactor, det) = deformation(grad);
+        let expansion = Number::pow(det, T::from(self.exponent));
         let tension = T::from(-self.stiffness) / expansion;
         tensor(|i, j| tension * cofactor[i][j])
     }

@@ -72,7 +72,7 @@ mod tests {
         let mut second = [[[0.0; 3]; 3]; 3];
         second[0] = [[2.0 * y, 2.0 * x, 0.0], [2.0 * x, 0.0, 0.0], [0.0; 3]];
         second[1] = [[0.0, 2.0 * y, 0.0], [2.0 * y, 2.0 * x, 0.0], [0.0; 3]];
-        let found = solid.divergence(2, &[[0.0; 3]; 3], &second);
+        let found = solid.divergence(2, &[[0.0; 3]; 3], &second, None);
         assert_relative_eq!(found[0], 5.0 * 4.0 * y + 3.0 * 2.0 * y);
         assert_relative_eq!(found[1], 5.0 * 4.0 * x + 3.0 * 2.0 * x);
     }

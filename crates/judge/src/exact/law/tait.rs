@@ -2,7 +2,7 @@
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, cofactor, det, dilation, tensor, unit};
+use crate::exact::tensor::{Tensor, deformation, dilation, tensor};
 
 /// Tait's equation of state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,9 +24,8 @@ impl ConstitutiveLaw for TaitLaw {
         "Tait, rho0 u_tt = Div P + rho0 b, P = -p J F^-T, p = K/7 (J^-7 - 1)";
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
-        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
-        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
-        let excess = Number::powi(det(&f, &cofactor), -7) - T::from(1.0);
+        let (_, cofactor, det) = deformation(grad);
+        let excess = Number::powi(det, -7) - T::from(1.0);
         let pressure = T::from(self.bulk) * excess * T::from(1.0 / 7.0);
         tensor(|i, j| -(pressure * cofactor[i][j]))
     }

@@ -16,13 +16,10 @@ use crate::exact::tensor::{Tensor, tensor};
 
 /// A plasticity law that is implemented for uniaxial strain only.
 pub(super) trait UniaxialPlasticity {
-    /// See [`ConstitutiveLaw::NAME`].
     const MATERIAL: &'static str;
 
-    /// See [`ConstitutiveLaw::EQUATION`].
     const TEXT: &'static str;
 
-    /// Returns the stresses as functions of the strain.
     fn response(&self) -> &UniaxialLaw;
 }
 
@@ -92,7 +89,6 @@ impl UniaxialYield {
     }
 }
 
-/// The stresses of a law in uniaxial strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct UniaxialLaw {
     pub(super) lame: Lame,
@@ -145,14 +141,12 @@ impl UniaxialLaw {
         if stays { after(to_apex) } else { [T::from(f64::NAN); 2] }
     }
 
-    /// See [`ConstitutiveLaw::piola_from`].
     pub(super) fn piola_from<T: Number>(&self, grad: &Tensor<T>, initial: &Tensor<T>) -> Tensor<T> {
         uniaxial_piola(grad, |strain, axis| {
             self.kirchhoff(strain, [initial[axis][axis], initial[(axis + 1) % 3][(axis + 1) % 3]])
         })
     }
 
-    /// See [`ConstitutiveLaw::flows`].
     pub(super) fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
         let strain = libm::log1p(grad);
         let reached = self.first_yield(strain.signum(), [initial[0][0], initial[1][1]]);

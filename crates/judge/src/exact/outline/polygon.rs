@@ -263,7 +263,6 @@ impl AreaMoments {
 
 pub(super) type Point = [f64; 2];
 
-/// Returns the vector from `a` to `b` (m).
 pub(super) fn side(a: &Point, b: &Point) -> Point {
     [b[0] - a[0], b[1] - a[1]]
 }

@@ -49,7 +49,6 @@ pub(super) struct SumDeclaration {
     pub(super) needs: SumNeed,
 }
 
-/// How a sum over the body is computed for a solver.
 #[derive(Clone, Copy)]
 pub(super) enum ComputedSum {
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
@@ -204,7 +203,6 @@ fn of_stresses(samples: &Samples, value: fn(&SpaceStress) -> f64) -> Vec<f64> {
         .collect()
 }
 
-/// Declares scalars that are functions of the stress.
 macro_rules! of_stress {
     ($($name:ident = $value:expr;)+) => {$(
         pub(super) const $name: Declaration = Declaration {

@@ -76,7 +76,6 @@ impl JudgedSum {
     }
 }
 
-/// Computes norms over instants of equal weight.
 pub(super) fn over_instants(errors: &[[f64; 3]]) -> Norms {
     Norms::of(errors.as_flattened(), 3, &vec![1.0; errors.len()])
 }

@@ -151,7 +151,6 @@ impl RunErrors {
     /// Errors of a failed run.
     pub const NONE: Self = Self { at_end: Norms::NONE, largest: Norms::NONE };
 
-    /// Errors before the first instant.
     pub(super) const START: Self = Self { at_end: Norms::NONE, largest: Norms::ZERO };
 
     pub(super) fn add(&mut self, now: Norms) {

@@ -45,7 +45,6 @@ impl History {
     }
 }
 
-/// Number of labels on each axis that an interpolation uses.
 const NEAR: usize = 4;
 
 /// Interpolates the displacement at a fixed point of a body whose labels form a lattice, by cubic

@@ -364,7 +364,6 @@ mod tests {
         assert!((value - expected).abs() < 1e-14 || (value.is_nan() && expected.is_nan()));
     }
 
-    /// F is compared with the exact F, not with another quantity.
     #[test]
     fn deformation_gradient_is_compared_with_the_exact_one() {
         struct Turned;

@@ -65,7 +65,6 @@ pub fn run_recorded(
     monitor.run(subject, clock)
 }
 
-/// The comparison during a run, with its intermediate results.
 struct RunMonitor<'a> {
     truth: &'a dyn Truth,
     comparison: &'a Comparison<'a>,

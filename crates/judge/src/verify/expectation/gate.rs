@@ -229,7 +229,6 @@ impl Requirement {
     }
 }
 
-/// Describes the rounding bound and the number of levels within it.
 pub(crate) fn rounding_remark(bound: f64, within: usize, levels: usize) -> String {
     let bound = rounded(bound, 2);
     format!("errors at most {bound:e} count as rounding: {within} of {levels} levels")
@@ -256,7 +255,6 @@ mod tests {
         requirement.check(&levels, Axis::Space, &judgement, 1e-14)
     }
 
-    /// Creates errors of order `p` on `count` levels.
     fn of_order(p: f64, count: i32) -> Vec<f64> {
         (0..count).map(|k| libm::exp2(-p * f64::from(k))).collect()
     }

@@ -73,7 +73,6 @@ impl Check {
     }
 }
 
-/// Number of digits of a bound in texts.
 const DIGITS: usize = 4;
 
 impl Limits {
@@ -178,7 +177,6 @@ fn rates(interval: (f64, f64)) -> String {
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// Formats a drift with one digit.
 fn rounding(drift: f64) -> String {
     format!("{drift:.0e}")
 }

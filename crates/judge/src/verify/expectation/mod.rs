@@ -75,7 +75,6 @@ impl Expectation {
         judged.into_iter().chain(told.map(|figure| figure.unmet)).collect()
     }
 
-    /// Describes an unmet verdict or observed order.
     fn unmet_judgement(&self, found: &CaseFindings) -> Option<Unmet> {
         let verdict = self.verdict.filter(|verdict| found.verdict != *verdict);
         let holds = |bounds: &Bounds| {
@@ -101,7 +100,6 @@ impl Expectation {
         text.map(|text| Unmet::new(self.code(found), text))
     }
 
-    /// Classifies an unmet verdict or observed order.
     fn code(&self, found: &CaseFindings) -> UnmetCode {
         let is_limit = self.verdict.is_some_and(|verdict| verdict != Verdict::Converging);
         let is_equal = self.verdict.is_none_or(|verdict| verdict == found.verdict);

@@ -150,7 +150,6 @@ impl Taylor {
         best.is_some_and(|(error, now)| !((now - self.gradient).abs() <= SURE * error))
     }
 
-    /// Returns the central differences with a small rounding error.
     fn usable_differences(&self) -> Vec<f64> {
         let all = self.perturbed.iter().zip(self.differences());
         let usable = all.filter(|(p, d)| !(self.rounding > NOISE * (p.by * d).abs()));
@@ -180,7 +179,6 @@ fn has_tail(orders: &[Option<f64>], range: (f64, f64)) -> bool {
     end - start == LEVELS - 1 && orders[start..end].iter().all(|order| is_in(*order, range))
 }
 
-/// Returns the maximum number of consecutive orders in a range.
 fn longest_run(orders: &[Option<f64>], range: (f64, f64)) -> usize {
     let extend = |(longest, now): (usize, usize), order: &Option<f64>| {
         let now = if is_in(*order, range) { now + 1 } else { 0 };

@@ -2,7 +2,6 @@
 
 use super::fit::Interval;
 
-/// Number of significant digits of a spacing or an error.
 const DIGITS: usize = 4;
 
 /// Formats a number with four significant digits: `0.4167`, `25`, `1.563e-14`.

@@ -17,6 +17,8 @@
 //! either. With the order fitted to the same three values, this ratio is identically `u1 / u2`,
 //! which is close to 1 even if the values do not converge.
 
+use crate::exact::bisection::bisect;
+
 /// Convergence of three values at one point and time, and their limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Richardson {
@@ -52,16 +54,5 @@ fn solve(ratio: f64, [coarse, fine]: [f64; 2]) -> f64 {
     while !reaches(high) {
         high *= 2.0;
     }
-    let mut low = 0.0;
-    loop {
-        let middle = 0.5 * (low + high);
-        if !(low < middle && middle < high) {
-            return middle;
-        }
-        if reaches(middle) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
+    bisect(0.0, high, reaches)
 }

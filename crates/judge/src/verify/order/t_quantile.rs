@@ -12,29 +12,19 @@
 //!
 //! The sum has finitely many terms. `A(t|nu)` is inverted by bisection in `theta`.
 
+use crate::exact::bisection::bisect;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 /// The probability that a confidence interval contains the true value.
 pub(crate) const CONFIDENCE: f64 = 0.95;
-
-/// Number of halvings of `[0, pi/2]` until neighbouring doubles are reached.
-const HALVINGS: usize = 60;
 
 /// Returns the `t` with `A(t|nu) = 0.95`; NaN for `nu = 0`, which has no distribution.
 pub fn two_sided_95(degrees_of_freedom: usize) -> f64 {
     if degrees_of_freedom == 0 {
         return f64::NAN;
     }
-    let (mut low, mut high) = (0.0, FRAC_PI_2);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if probability_within(middle, degrees_of_freedom) < CONFIDENCE {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    (degrees_of_freedom as f64).sqrt() * libm::tan(0.5 * (low + high))
+    let reaches = |theta: f64| !(probability_within(theta, degrees_of_freedom) < CONFIDENCE);
+    (degrees_of_freedom as f64).sqrt() * libm::tan(bisect(0.0, FRAC_PI_2, reaches))
 }
 
 /// Computes `A(t|nu)` as a function of `theta`.

@@ -78,7 +78,6 @@ impl Window {
         variance_ratio::regularised(shorter.line.rss / self.line.rss, freedom, dropped) < risk
     }
 
-    /// Returns the longest shorter window that meets all conditions.
     fn improved(&self, points: &[LogPoint], formal_order: f64) -> Option<Self> {
         let candidates = shorter_ranges(&self.range);
         let risk = SELECTION_RISK / candidates.len() as f64;

@@ -13,7 +13,6 @@ const FEWEST: usize = 6;
 /// A recurrence `y(k+2) = tr y(k+1) - det y(k) + constant`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recurrence {
-    /// Determinant of the step.
     determinant: f64,
     /// `1 - tr + det`, which is small if the phase angle per step is small.
     deficit: f64,

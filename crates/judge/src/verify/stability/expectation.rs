@@ -106,7 +106,6 @@ fn other_verdict(wanted: Stability, trial: &Trial) -> Option<String> {
     (wanted != got).then(|| format!("expected {wanted}, got {got}{why}"))
 }
 
-/// Describes the runs that contradict the prediction.
 fn unconfirmed(critical: &Critical) -> Vec<String> {
     let Some(prediction) = &critical.predicted else { return Vec::new() };
     let disagrees = |(share, trial): &(f64, Trial)| {

@@ -189,7 +189,6 @@ impl Diagnosis {
         causes
     }
 
-    /// Returns the distance of an order from the theoretical order.
     fn off(&self, order: Option<Interval>) -> f64 {
         order.map_or(f64::INFINITY, |order| (order.value - self.formal_order).abs())
     }

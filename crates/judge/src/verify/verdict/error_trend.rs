@@ -90,7 +90,6 @@ fn spread(points: &[LogPoint]) -> f64 {
     ys().fold(f64::NEG_INFINITY, f64::max) - ys().fold(f64::INFINITY, f64::min)
 }
 
-/// Whether the error rises and falls strongly without a clear trend.
 pub(crate) fn oscillates(points: &[LogPoint]) -> bool {
     let steps: Vec<f64> = points.windows(2).map(|pair| pair[1].y - pair[0].y).collect();
     let turns = steps.windows(2).filter(|s| s[0] * s[1] < 0.0).count();

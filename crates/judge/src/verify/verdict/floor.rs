@@ -63,7 +63,6 @@ impl Floor {
         }
     }
 
-    /// Whether every probe has a finite error.
     fn told(&self) -> bool {
         let told = |probe: &Probe| probe.error.as_ref().is_ok_and(|error| error.is_finite());
         !self.probes.is_empty() && self.probes.iter().all(told)

@@ -108,7 +108,6 @@ impl Finding {
     }
 }
 
-/// The usable levels of a series.
 struct JudgedSeries {
     /// Levels with a non-zero error, on logarithmic axes.
     points: Vec<LogPoint>,
@@ -160,7 +159,6 @@ impl JudgedSeries {
         })
     }
 
-    /// Detects a floor from an error of zero.
     fn zero(&self, hypothesis: &OrderHypothesis) -> Option<Finding> {
         let from = *self.zeros.first()?;
         let end = self.points.partition_point(|p| p.level < from);

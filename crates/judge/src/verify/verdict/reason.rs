@@ -32,7 +32,6 @@ pub(crate) enum Reason {
 }
 
 impl Reason {
-    /// Returns the reason as a sentence, with the order over the window if there is one.
     pub(crate) fn sentence(
         &self,
         levels: &[Level],
@@ -95,7 +94,6 @@ fn oscillation(levels: &[Level]) -> String {
     format!("the error goes up and down without a trend: {}", errors.join(", "))
 }
 
-/// Errors from the first level of the floor on.
 fn floor(levels: &[Level], axis: Axis) -> String {
     let errors = || levels.iter().filter(|level| level.usable).map(|level| level.error);
     let low = errors().fold(f64::INFINITY, f64::min);

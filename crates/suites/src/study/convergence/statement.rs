@@ -58,7 +58,7 @@ fn exact_temperature(plan: &ConvergencePlan) -> Vec<(String, String)> {
     let Some(problem) = plan.heat_problem() else { return Vec::new() };
     let Conduction { temperature, manufactured, motion, .. } = problem;
     let flow = if motion.is_some() { "J C^-1 Grad T" } else { "Grad T" };
-    let mut rows = vec![("temperature", temperature.source().to_owned())];
+    let mut rows = vec![("temperature", temperature.source())];
     if *manufactured {
         rows.push(("heat source", format!("manufactured, s = c T_t - Div(k {flow})/rho0")));
     }

@@ -130,7 +130,6 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Counts a node, or returns an error if a limit is exceeded.
     fn count(&mut self, node: &Node) -> Result<(), FormulaError> {
         self.nodes += 1;
         self.operations = self.operations.saturating_add(self.runs);
@@ -193,7 +192,6 @@ impl<'a> ProgramBuilder<'a> {
         result
     }
 
-    /// Compiles the expression that the scope declares as `name`.
     fn inline(
         &mut self,
         name: &'a str,
@@ -264,7 +262,6 @@ impl<'a> ProgramBuilder<'a> {
         Ok(self.settle(start, at, terms))
     }
 
-    /// Compiles the body of a sum. The body runs once per term.
     fn term(
         &mut self,
         frame: &mut Frame<'a>,

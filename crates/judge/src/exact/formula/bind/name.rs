@@ -44,7 +44,6 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::unknown(span, name).help(help))
     }
 
-    /// Returns the error for a call of `name` if it is not a function.
     pub(super) fn not_a_function(&self, frame: &Frame, node: &Node, name: &str) -> FormulaError {
         let local = frame.local(name).is_some();
         let role = match frame.function {
@@ -77,7 +76,6 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Lists the constants as text, sorted by similarity to `name`.
     fn constants(&self, name: &str) -> Option<String> {
         let sorted = by_nearness(name, self.scope.constants().map(|(known, _)| known));
         let listed: Vec<String> =

@@ -1,0 +1,12 @@
+//! Bisection down to neighbouring floating-point numbers.
+
+/// Returns the number from which on `reaches` is true, which must be between `low` and `high`.
+pub(crate) fn bisect(mut low: f64, mut high: f64, reaches: impl Fn(f64) -> bool) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        if !(low < middle && middle < high) {
+            return middle;
+        }
+        if reaches(middle) { high = middle } else { low = middle }
+    }
+}
