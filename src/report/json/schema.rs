@@ -51,7 +51,8 @@ fn case() -> Value {
     // Verdicts of convergence studies. Other studies and inapplicable cases have others.
     let codes: Vec<_> = UnmetCode::ALL.iter().map(|code| code.name()).collect();
     let results: Vec<_> = CaseResult::ALL.iter().map(|result| result.name()).collect();
-    let verdicts = json!({"anyOf": [{"enum": Verdict::ALL.map(Verdict::name)}, text()]});
+    let verdicts: Vec<_> = Verdict::ALL.iter().map(|verdict| verdict.name()).collect();
+    let verdicts = json!({"anyOf": [{"enum": verdicts}, text()]});
     object([
         ("case", text(), "name of the case"),
         ("subject", text(), "the solver: `mpm`, `fem`, or an external program"),

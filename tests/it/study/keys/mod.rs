@@ -31,8 +31,9 @@ fn every_key_has_a_row_in_the_manual() {
 fn the_manual_has_every_verdict() {
     let (pages, verdicts) = (manual::pages(), mpm_verify::verify::Verdict::ALL);
     let row = manual::rows(&pages)["expect.verdict"][0];
-    let spelt = verdicts.map(|verdict| format!("`{}`", verdict.name().replace([' ', '-'], "_")));
-    let untold: Vec<&String> = spelt.iter().filter(|name| !row.contains(*name)).collect();
+    let spelt =
+        verdicts.iter().map(|verdict| format!("`{}`", verdict.name().replace([' ', '-'], "_")));
+    let untold: Vec<String> = spelt.filter(|name| !row.contains(name)).collect();
     assert!(untold.is_empty(), "docs/grammar: the row of `expect.verdict` has not {untold:?}");
 }
 

@@ -1,59 +1,31 @@
 //! Names of verdicts.
 
+use mpm_subject::named;
 use std::fmt;
 use std::str::FromStr;
 
-/// Behaviour of a series of errors. Only [`Verdict::Converging`] supports a claimed order. Every
-/// other verdict names the reason why the order is not supported.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Verdict {
-    /// The whole confidence interval of the observed order lies in the expected range.
-    Converging,
-    /// The observed order is above the expected range, which indicates a defect of the test.
-    TooGood,
-    /// The observed order is below the expected range.
-    TooLow,
-    /// The error stops decreasing because of round-off or an axis that was not refined.
-    AtFloor,
-    /// The error decreases, but no window of levels has a settled order.
-    PreAsymptotic,
-    /// The error rises and falls under refinement without a clear trend.
-    Oscillatory,
-    /// The error grows under refinement.
-    Divergent,
-    /// A level failed, or a number is invalid as an error or a spacing.
-    Failed,
-    /// There are fewer usable levels than a claimed order requires.
-    TooFewLevels,
-}
-
-impl Verdict {
-    /// All verdicts, in the order of declaration.
-    pub const ALL: [Self; 9] = [
-        Self::Converging,
-        Self::TooGood,
-        Self::TooLow,
-        Self::AtFloor,
-        Self::PreAsymptotic,
-        Self::Oscillatory,
-        Self::Divergent,
-        Self::Failed,
-        Self::TooFewLevels,
-    ];
-
-    /// Returns the name of the verdict in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Converging => "converging",
-            Self::TooGood => "too good",
-            Self::TooLow => "too low",
-            Self::AtFloor => "at floor",
-            Self::PreAsymptotic => "pre-asymptotic",
-            Self::Oscillatory => "oscillatory",
-            Self::Divergent => "divergent",
-            Self::Failed => "failed",
-            Self::TooFewLevels => "too few levels",
-        }
+named! {
+    /// Behaviour of a series of errors. Only [`Verdict::Converging`] supports a claimed order.
+    /// Every other verdict names the reason why the order is not supported.
+    pub enum Verdict {
+        /// The whole confidence interval of the observed order lies in the expected range.
+        Converging = "converging",
+        /// The observed order is above the expected range, which indicates a defect of the test.
+        TooGood = "too good",
+        /// The observed order is below the expected range.
+        TooLow = "too low",
+        /// The error stops decreasing because of round-off or an axis that was not refined.
+        AtFloor = "at floor",
+        /// The error decreases, but no window of levels has a settled order.
+        PreAsymptotic = "pre-asymptotic",
+        /// The error rises and falls under refinement without a clear trend.
+        Oscillatory = "oscillatory",
+        /// The error grows under refinement.
+        Divergent = "divergent",
+        /// A level failed, or a number is invalid as an error or a spacing.
+        Failed = "failed",
+        /// There are fewer usable levels than a claimed order requires.
+        TooFewLevels = "too few levels",
     }
 }
 
@@ -65,7 +37,7 @@ impl fmt::Display for Verdict {
 
 /// A name that is not a verdict.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{word}` is not a verdict; known: {}", Verdict::ALL.map(Verdict::name).join(", "))]
+#[error("`{word}` is not a verdict; known: {}", names().join(", "))]
 pub struct UnknownVerdict {
     /// Name that is not a verdict.
     pub word: String,
@@ -76,11 +48,14 @@ impl FromStr for Verdict {
 
     /// Parses the name as printed or in snake case (`too_good`, `pre_asymptotic`).
     fn from_str(word: &str) -> Result<Self, UnknownVerdict> {
-        Self::ALL
-            .into_iter()
-            .find(|verdict| word == verdict.name() || word == snake_case(verdict.name()))
-            .ok_or_else(|| UnknownVerdict { word: word.into() })
+        let is_name = |verdict: &Self| word == verdict.name() || word == snake_case(verdict.name());
+        let found = Self::ALL.iter().copied().find(is_name);
+        found.ok_or_else(|| UnknownVerdict { word: word.into() })
     }
+}
+
+fn names() -> Vec<&'static str> {
+    Verdict::ALL.iter().map(|verdict| verdict.name()).collect()
 }
 
 fn snake_case(name: &str) -> String {
@@ -93,7 +68,7 @@ mod tests {
 
     #[test]
     fn every_name_reads_back_in_both_spellings() {
-        for verdict in Verdict::ALL {
+        for &verdict in Verdict::ALL {
             assert_eq!(verdict.to_string().parse(), Ok(verdict));
             assert_eq!(snake_case(verdict.name()).parse(), Ok(verdict));
         }

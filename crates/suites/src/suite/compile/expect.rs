@@ -135,8 +135,9 @@ fn expectation(
 
 fn verdict(path: &SuitePath<'_>, word: &str) -> Result<Verdict, Diagnostic> {
     Verdict::from_str(word).map_err(|_| {
-        let known = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_"));
-        let known = known.each_ref().map(String::as_str);
+        let name = |verdict: &Verdict| verdict.name().replace([' ', '-'], "_");
+        let known: Vec<String> = Verdict::ALL.iter().map(name).collect();
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
         let diagnostic = path.diagnostic(&format!("`{word}` is not a verdict"));
         diagnostic.with_help(&suggestion("verdicts", word, &known))
     })

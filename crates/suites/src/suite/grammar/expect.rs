@@ -74,7 +74,8 @@ pub(crate) struct AnyMethodSpec {
 /// Returns the JSON schema of the verdict names in suites.
 #[cfg(feature = "schemas")]
 fn verdicts(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-    let names = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_"));
+    let name = |verdict: &Verdict| verdict.name().replace([' ', '-'], "_");
+    let names: Vec<String> = Verdict::ALL.iter().map(name).collect();
     schemars::json_schema!({"type": "string", "enum": names})
 }
 
