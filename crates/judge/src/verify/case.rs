@@ -54,7 +54,7 @@ pub fn judge_case<R: Reruns>(
         gate.as_ref().map_or_else(Vec::new, |gate| remarks(plan, gate, &judgement, &levels));
     if let Some(gate) = &gate {
         for level in &mut levels {
-            let bound = gate.rounding * plan.scale.unwrap_or(1.0);
+            let bound = gate.rounding * plan.settings.scale.unwrap_or(1.0);
             level.rounding_bound = level.rounding_bound.or((bound > 0.0).then_some(bound));
         }
     }
@@ -105,7 +105,8 @@ fn rounding_without_order<R: Reruns>(
 ) -> Option<String> {
     // Levels in single precision have a bound of their own, and advice.
     let is_double = levels.iter().all(|level| level.rounding_bound.is_none());
-    let is_free = plan.is_compared && plan.expectation.is_none() && gate.is_none() && is_double;
+    let is_compared = plan.settings.compared;
+    let is_free = is_compared && plan.expectation.is_none() && gate.is_none() && is_double;
     let counted: Vec<&LevelOutcome> =
         levels.iter().filter(|level| level.usable && is_free).collect();
     let bound = (!counted.is_empty()).then(|| rerun::rounding(plan, levels, reruns))?;
@@ -155,15 +156,7 @@ impl JudgePlan<'_> {
     ) -> Convergence {
         let limits = self.expectation.map(|expectation| &expectation.limits);
         Convergence {
-            axis: self.axis,
-            formal_order: self.formal_order,
-            norm: self.norm,
-            of: self.of,
-            within: self.within.cloned(),
-            scale: self.scale,
-            error_scale: self.error_scale.clone(),
-            compared: self.is_compared,
-            steps: self.steps,
+            settings: self.settings.clone(),
             bounded: self.expectation.is_some_and(|expectation| expectation.verdict.is_none())
                 || accepted.is_some_and(|accepted| accepted != Acceptance::Order)
                 || gate.is_some_and(|gate| gate.remark.is_some()),
@@ -175,7 +168,6 @@ impl JudgePlan<'_> {
             floor,
             observed_limit: observed_limit(&levels),
             levels,
-            observed_at: self.observed_at.map(<[f64]>::to_vec),
         }
     }
 }

@@ -4,10 +4,11 @@ use crate::verify::{
     Acceptance, Axis, Conserved, ErrorScale, EstimateRefusal, Floor, History, JudgedBox, Judgement,
     Level, LimitEstimate, NormName, Quantity, RunResult, StepKind, Verdict, format_number,
 };
+use std::ops::Deref;
 
-/// Results of a convergence study.
+/// Properties of the study of a case that do not depend on its levels.
 #[derive(Debug, Clone)]
-pub struct Convergence {
+pub struct StudySettings {
     /// Axis of refinement.
     pub axis: Axis,
     /// Theoretical order of the method on a smooth solution. For particles per cell there is no
@@ -27,6 +28,15 @@ pub struct Convergence {
     pub compared: bool,
     /// Whether steps advance time or the load.
     pub steps: StepKind,
+    /// Reference position (m) of the observed point.
+    pub observed_at: Option<Vec<f64>>,
+}
+
+/// Results of a convergence study.
+#[derive(Debug, Clone)]
+pub struct Convergence {
+    /// Properties that do not depend on the levels.
+    pub settings: StudySettings,
     /// Whether the case has bounds on measured values only. Every usable level then counts.
     pub bounded: bool,
     /// Reason why an external solver meets the requirement of `run --gate`, if it does. A case
@@ -47,8 +57,14 @@ pub struct Convergence {
     /// Limit of the displacement (m) at the observed point in 1-D, or the reason why the levels
     /// give no limit; `None` if no point is observed.
     pub observed_limit: Option<Result<LimitEstimate, EstimateRefusal>>,
-    /// Reference position (m) of the observed point.
-    pub observed_at: Option<Vec<f64>>,
+}
+
+impl Deref for Convergence {
+    type Target = StudySettings;
+
+    fn deref(&self) -> &StudySettings {
+        &self.settings
+    }
 }
 
 /// Outcome of one level of a refinement plan.
@@ -207,7 +223,7 @@ pub(in crate::verify) mod tests {
         };
         let levels: Vec<Level> =
             errors.iter().enumerate().map(|(k, error)| Level::new(spacing(k), *error)).collect();
-        Convergence {
+        let settings = StudySettings {
             axis: Axis::Space,
             formal_order: 2.0,
             norm: NormName::Rms,
@@ -217,6 +233,10 @@ pub(in crate::verify) mod tests {
             error_scale: ErrorScale { problem: String::new(), size: 1.0, growth: 2.0 },
             compared: true,
             steps: StepKind::Time,
+            observed_at: None,
+        };
+        Convergence {
+            settings,
             bounded: false,
             accepted: None,
             remarks: Vec::new(),
@@ -226,7 +246,6 @@ pub(in crate::verify) mod tests {
             floor: None,
             levels: errors.iter().enumerate().map(level).collect(),
             observed_limit: None,
-            observed_at: None,
         }
     }
 

@@ -2,38 +2,20 @@
 
 use super::exclusion::{rounding_bound, with_exclusions};
 use crate::verify::{
-    Axis, Bounds, Conserved, ErrorScale, Expectation, Gating, JudgedBox, Judgement, Level,
-    LevelOutcome, NormName, OrderHypothesis, Quantity, RunResult, StepKind, judge,
+    Axis, Bounds, Conserved, Expectation, Gating, Judgement, Level, LevelOutcome, OrderHypothesis,
+    RunResult, StudySettings, judge,
 };
 
 /// All inputs of the judgement of a case, except its levels.
 #[derive(Debug, Clone)]
 pub struct JudgePlan<'a> {
-    /// Axis of refinement.
-    pub axis: Axis,
-    /// Theoretical order of the method.
-    pub formal_order: f64,
-    /// Norm of the judged error.
-    pub norm: NormName,
-    /// Quantity whose error is judged.
-    pub of: Quantity,
-    /// Box to which errors are restricted, if any.
-    pub within: Option<&'a JudgedBox>,
-    /// Divisor of the error, if any.
-    pub scale: Option<f64>,
-    /// Scale for comparing errors and work between cases.
-    pub error_scale: ErrorScale,
-    /// Whether there is an exact solution or a reference against which errors are measured.
-    pub is_compared: bool,
-    /// Whether steps advance time or the load.
-    pub steps: StepKind,
+    /// Properties of the study.
+    pub settings: StudySettings,
     /// Whether to exclude levels on which particles change their cell.
     pub excludes_crossings: bool,
     /// Distance (m) between neighbouring positions in single precision. Set if a solver in single
     /// precision is judged by its displacement and the exact motion is known.
     pub position_spacing: Option<f64>,
-    /// Reference position (m) of the observed point.
-    pub observed_at: Option<&'a [f64]>,
     /// Conserved sums whose drift is reported for a case without an expectation.
     pub sums: Vec<Conserved>,
     /// Expectation of the suite, if any.
@@ -75,13 +57,14 @@ impl JudgePlan<'_> {
         let LevelRun { sizes, run, spread, stable_time_step } = level;
         let LevelSizes { cells, h, dt, ppc, particle_spacing } = sizes;
         let is_crossed = run.counters.crossings.is_some_and(|n| n > 0);
-        let error = run.errors.in_norm(self.norm);
+        let StudySettings { axis, norm, compared, .. } = self.settings;
+        let error = run.errors.in_norm(norm);
         let spacing = self.position_spacing;
-        let bound = spacing.map(|spacing| rounding_bound(run.steps, spacing, self.norm));
+        let bound = spacing.map(|spacing| rounding_bound(run.steps, spacing, norm));
         LevelOutcome {
             cells,
             h,
-            spacing: match self.axis {
+            spacing: match axis {
                 Axis::Space => h,
                 Axis::Time => dt,
                 Axis::Particles => particle_spacing,
@@ -92,7 +75,7 @@ impl JudgePlan<'_> {
             usable: !(is_crossed && self.excludes_crossings),
             rounding_bound: bound,
             is_below_rounding: bound.is_some_and(|bound| error < bound),
-            spread: spread.filter(|_| self.is_compared).map(|spread| self.relative(spread)),
+            spread: spread.filter(|_| compared).map(|spread| self.relative(spread)),
             order: None,
             stable_time_step,
             run,
@@ -100,22 +83,22 @@ impl JudgePlan<'_> {
     }
 
     fn relative(&self, difference: f64) -> f64 {
-        self.scale.map_or(difference, |scale| difference / scale)
+        self.settings.scale.map_or(difference, |scale| difference / scale)
     }
 
     pub(super) fn judge_levels(&self, levels: &[LevelOutcome]) -> Judgement {
         let is_sound = levels.iter().all(|level| level.run.failure.is_none());
-        if !self.is_compared && is_sound {
+        if !self.settings.compared && is_sound {
             return Judgement::without_comparison(levels.len());
         }
         let expected = self.expectation.and_then(|expectation| expectation.order);
         let judgement = self.judge_series(&series(levels), expected);
-        with_exclusions(judgement, levels, self.axis)
+        with_exclusions(judgement, levels, self.settings.axis)
     }
 
     /// Judges a series of errors. `expected` contains the expected bounds of the order, if any.
     pub(super) fn judge_series(&self, levels: &[Level], expected: Option<Bounds>) -> Judgement {
-        let (formal_order, axis) = (self.formal_order, self.axis);
+        let StudySettings { formal_order, axis, .. } = self.settings;
         judge(levels, &OrderHypothesis { formal_order, expected, axis })
     }
 

@@ -48,13 +48,13 @@ pub mod verdict;
 
 pub use case::{CaseJudgement, judge_case};
 pub use conservation::Conserved;
-pub use convergence::{Convergence, LevelOutcome};
+pub use convergence::{Convergence, LevelOutcome, StudySettings};
 pub use cost::{Agreement, pareto_front};
 pub use error::clock::Clock;
 pub use error::norm::Norms;
 pub use error::observer::History;
 pub use error::quantity::Quantity;
-pub use error::run::{Comparison, RunResult, errors, run};
+pub use error::run::{Comparison, RunResult, run};
 pub use exclusion::rounding_bound;
 pub use expectation::gate::{GateResult, Gating, Requirement};
 pub use expectation::limits::{Limits, Measured};

@@ -89,7 +89,7 @@ pub(super) fn floor<R: Reruns>(
         let error = outcome.and_then(|outcome| outcome.run.failure.map_or(Ok(outcome.error), Err));
         Some(Probe { axis, error })
     };
-    let probes = others.filter(|axis| *axis != plan.axis).filter_map(probe).collect();
+    let probes = others.filter(|axis| *axis != plan.settings.axis).filter_map(probe).collect();
     Some(Floor { error: finest.error, probes })
 }
 
@@ -102,7 +102,7 @@ pub(super) fn gate<R: Reruns>(
     reruns: &R,
 ) -> GateResult {
     let rounding = rounding(plan, levels, reruns);
-    let result = required.check(&usable_series(levels), plan.axis, judgement, rounding);
+    let result = required.check(&usable_series(levels), plan.settings.axis, judgement, rounding);
     let remark = match result {
         Err(_) if is_step_fixed(plan, levels) => shorten(plan, required, levels, rounding, reruns),
         _ => None,
@@ -139,7 +139,7 @@ fn shorten<R: Reruns>(
         again.push(finest);
         let judgement = plan.judge_series(&series(&again), None);
         let usable = usable_series(&again);
-        if let Ok(met) = required.check(&usable, plan.axis, &judgement, rounding) {
+        if let Ok(met) = required.check(&usable, plan.settings.axis, &judgement, rounding) {
             let order = judgement.order.map_or("none".to_owned(), |order| order.shown());
             let remark = format!(
                 "with 1/{} of the time step, which the suite does not refine, the order is {order}",
@@ -154,7 +154,7 @@ fn shorten<R: Reruns>(
 /// Whether the cells are refined while the time step is constant or nearly constant.
 fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
     let (Some(first), Some(last)) = (levels.first(), levels.last()) else { return false };
-    plan.axis == Axis::Space
+    plan.settings.axis == Axis::Space
         && last.h < first.h
         && first.dt < last.dt * libm::pow(first.h / last.h, FOLLOWS)
 }
@@ -169,5 +169,5 @@ pub(super) fn rounding<R: Reruns>(
     let Some(RoundingSizes { value, number, unit }) = reruns.rounding() else { return 0.0 };
     let steps = levels.iter().map(|level| level.run.steps).max().unwrap_or(0);
     let walk = ROUNDINGS * unit * number * libm::sqrt(steps as f64 + 1.0);
-    walk.min(MOST_ROUNDING * value) / plan.scale.unwrap_or(1.0)
+    walk.min(MOST_ROUNDING * value) / plan.settings.scale.unwrap_or(1.0)
 }

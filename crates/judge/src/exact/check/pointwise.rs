@@ -82,7 +82,10 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     let mut found = LargestViolation::default();
     for SurveyPoint { event, now, divergence, force, .. } in &survey.points {
         let rho0 = problem.density.at(&event.label);
-        let rounding = rounding.max(hoop_rounding(problem, survey, event));
+        // A uniform stretch of a body of revolution gives no other scale of (P_rR - P_tT)/R.
+        let is_ring = problem.plane == PlaneState::Axisymmetric;
+        let hoop = if is_ring { ROUNDING * survey.largest.stress / event.label[0] } else { 0.0 };
+        let rounding = rounding.max(hoop);
         for i in 0..problem.dimension() {
             let inertia = rho0 * now.acceleration[i];
             let (stress, force) = (divergence[i], rho0 * force[i]);
@@ -102,15 +105,6 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
         }
     }
     found.into_result().map(|()| left)
-}
-
-/// Returns the rounding error (N/m3) of the hoop term `(P_rR - P_tT)/R` in a body of revolution,
-/// for which a uniform stretch gives no other scale. Zero in other bodies.
-fn hoop_rounding(problem: &Problem, survey: &Survey, event: &Event) -> f64 {
-    match problem.plane {
-        PlaneState::Axisymmetric => ROUNDING * survey.largest.stress / event.label[0],
-        PlaneState::Strain | PlaneState::Stress => 0.0,
-    }
 }
 
 /// Checks that the traction on every rim balances the pressure on the rim, which is zero on a free

@@ -72,11 +72,7 @@ impl SpaceTimePatch {
         self.part(&place, 0.5 * libm::exp2(-5.0 * random.unit()))
     }
 
-    pub(super) fn half_about(&self, place: &[f64]) -> Self {
-        self.part(place, 0.5)
-    }
-
-    fn part(&self, place: &[f64], factor: f64) -> Self {
+    pub(super) fn part(&self, place: &[f64], factor: f64) -> Self {
         let half: Vec<f64> = self.half.iter().map(|half| factor * half).collect();
         let within = |axis: usize| {
             let room = self.half[axis] - half[axis];

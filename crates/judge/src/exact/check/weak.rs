@@ -117,7 +117,7 @@ pub(crate) fn balances<const N: usize>(
             }
         }
         let peak = fine.iter().max_by(|a, b| a.peak.total_cmp(&b.peak));
-        patch = peak.map_or(patch.clone(), |peak| patch.half_about(&peak.place));
+        patch = peak.map_or(patch.clone(), |peak| patch.part(&peak.place, 0.5));
     }
     Ok(())
 }

@@ -229,11 +229,12 @@ impl<const N: usize, H: Hessian<N>> Div for Dual<N, H> {
     type Output = Self;
 
     /// The quotient q satisfies q*b = a. This equation is differentiated and solved for q' and q''.
-    /// A quotient far from a pulse such as `1/cosh(x)^2` counts as constant, see `is_overflow`.
+    /// A tiny quotient far from a pulse such as `1/cosh(x)^2` counts as constant.
     #[inline]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
-        if is_overflow(b.value, value) {
+        // Derivatives would be computed as infinity divided by infinity.
+        if b.value.abs() > 1.0 / TINY && value.abs() < TINY {
             return Self::from(value);
         }
         let mut gradient = [0.0; N];
@@ -306,13 +307,6 @@ impl<const N: usize, H: Hessian<N>> Number for Dual<N, H> {
 
 /// Quotients below this magnitude count as constant if their derivatives could overflow.
 const TINY: f64 = 1e-140;
-
-/// Whether the derivatives of a quotient with this denominator would be computed as infinity
-/// divided by infinity. Such a quotient counts as constant, because it is tiny.
-#[inline]
-fn is_overflow(denominator: f64, quotient: f64) -> bool {
-    denominator.abs() > 1.0 / TINY && quotient.abs() < TINY
-}
 
 /// Computes a power over `f64`, so the value of a jet is bit-identical to a plain evaluation.
 fn power(base: f64, exponent: f64) -> f64 {

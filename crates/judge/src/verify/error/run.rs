@@ -1,7 +1,7 @@
 //! Runs a solver on one level and compares the result with the exact solution.
 
 use super::judged_sum::{JudgedSum, over_instants};
-use super::norm::{NormName, Norms, RunErrors, larger, largest_length};
+use super::norm::{NormName, RunErrors, larger, largest_length};
 use crate::exact::Truth;
 use crate::verify::conservation::{Balance, ConservationError};
 use crate::verify::energy_rate::energy_rate;
@@ -112,7 +112,7 @@ impl<'a> RunMonitor<'a> {
             self.look(subject, clock, step);
         }
         let record = self.record.take().map(|mut record| {
-            record.add_sums(self.sum_errors.clone());
+            record.sums.clone_from(&self.sum_errors);
             record
         });
         (self.finished(subject, clock), record.unwrap_or_default())
@@ -144,9 +144,12 @@ impl<'a> RunMonitor<'a> {
                 return;
             }
         }
-        let judged = judged_samples(self.comparison, &self.samples);
+        let judged = match self.comparison.within {
+            Some(within) => Cow::Owned(within.restrict(&self.samples)),
+            None => Cow::Borrowed(&self.samples),
+        };
         if let Some(displacement) = &mut self.displacement_errors {
-            displacement.add(errors(&judged, self.truth, t));
+            displacement.add(Quantity::Displacement.errors(&judged, self.truth, t));
         }
         if let Some(sum) = self.comparison.sum {
             self.sum_errors.push(sum.error(subject, t));
@@ -211,18 +214,6 @@ impl<'a> RunMonitor<'a> {
             residual_speed: self.residual_speed.map(|_| f64::NAN),
         }
     }
-}
-
-fn judged_samples<'s>(comparison: &Comparison<'_>, samples: &'s Samples) -> Cow<'s, Samples> {
-    match comparison.within {
-        Some(within) => Cow::Owned(within.restrict(samples)),
-        None => Cow::Borrowed(samples),
-    }
-}
-
-/// Computes the norms of `u_num - u_exact` at the labels of `samples` at time `t`.
-pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
-    Quantity::default().errors(samples, truth, t)
 }
 
 /// Results of a run.

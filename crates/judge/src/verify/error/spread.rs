@@ -17,7 +17,7 @@ pub struct RunRecord {
     over_instants: bool,
     instants: Vec<Instant>,
     /// Error of a judged sum over the body at each instant.
-    sums: Vec<[f64; 3]>,
+    pub(super) sums: Vec<[f64; 3]>,
 }
 
 /// Differences from the exact value at one instant, sorted by label.
@@ -46,10 +46,6 @@ impl RunRecord {
         let masses = samples.mass.clone();
         let instant = Instant { labels, weights, masses, components, differences };
         self.instants.push(instant.sorted(samples.dimension));
-    }
-
-    pub(super) fn add_sums(&mut self, sums: Vec<[f64; 3]>) {
-        self.sums = sums;
     }
 
     /// Computes the difference between two runs in `norm`, in the unit of the judged quantity. NaN
@@ -173,7 +169,7 @@ mod tests {
     fn sums_over_the_body_are_compared_over_the_instants() {
         let run = |value: f64| {
             let mut record = RunRecord::for_norm(NormName::MaxLinf);
-            record.add_sums(vec![[0.0; 3], [value, 0.0, 0.0]]);
+            record.sums = vec![[0.0; 3], [value, 0.0, 0.0]];
             record
         };
         assert_eq!(spread(&[run(1.0), run(3.0)], NormName::MaxLinf).to_bits(), 2.0_f64.to_bits());

@@ -47,16 +47,13 @@ pub(crate) fn divergence(points: &[LogPoint]) -> Option<usize> {
     let part = &points[start..];
     let (first, last) = (points.first()?, points.last()?);
     let grows = part.len() >= FEWEST_OF_TREND && last.y - part[0].y >= LEAST_GROWTH;
-    (grows && (last.y - first.y >= LEAST_GROWTH || rises_twice(part) || line_rises(part)))
+    let rises_twice = part.windows(2).rev().take(2).all(|pair| pair[1].y > pair[0].y);
+    (grows && (last.y - first.y >= LEAST_GROWTH || rises_twice || line_rises(part)))
         .then_some(start)
 }
 
 fn lowest(points: &[LogPoint]) -> Option<usize> {
     (0..points.len()).min_by(|&a, &b| points[a].y.total_cmp(&points[b].y))
-}
-
-fn rises_twice(part: &[LogPoint]) -> bool {
-    part.windows(2).rev().take(2).all(|pair| pair[1].y > pair[0].y)
 }
 
 fn line_rises(part: &[LogPoint]) -> bool {

@@ -1,7 +1,7 @@
 //! Compares the solver with an independent implementation, `tests/second_opinion`: errors and
 //! fields on some levels of the suites must agree to 1e-9.
 
-use mpm_judge::verify::{Clock, errors};
+use mpm_judge::verify::{Clock, Quantity};
 use mpm_solvers::mpm::input::MpmMethod;
 use mpm_solvers::mpm::{
     BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, VolumeName,
@@ -114,7 +114,8 @@ fn run(
         subject.step(clock.dt()).map_err(|failure| (step, failure))?;
         if clock.is_instant(step) {
             subject.sample(&mut samples);
-            figures[0] = errors(&samples, truth, clock.time(step)).rms;
+            let errors = Quantity::Displacement.errors(&samples, truth, clock.time(step));
+            figures[0] = errors.rms;
             figures[1] = figures[0].max(figures[1]);
             for (largest, field) in figures[2..].iter_mut().zip(fields(&samples)) {
                 let squares: f64 = field.iter().map(|number| number * number).sum();

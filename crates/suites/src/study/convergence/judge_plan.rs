@@ -8,7 +8,7 @@ use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::verify::{
-    Axis, Conserved, ErrorScale, Expectation, JudgePlan, Quantity, RoundingSizes,
+    Axis, Conserved, ErrorScale, Expectation, JudgePlan, Quantity, RoundingSizes, StudySettings,
     single_precision_spacing,
 };
 
@@ -18,19 +18,22 @@ pub(super) fn judge_plan<'a>(
     expectation: Option<&'a Expectation>,
     truth: &dyn Truth,
 ) -> JudgePlan<'a> {
-    JudgePlan {
+    let settings = StudySettings {
         axis: plan.refine.axis,
         formal_order: formal_order(plan, case),
         norm: plan.norm,
         of: plan.of,
-        within: plan.within.as_ref(),
+        within: plan.within.clone(),
         scale: plan.scale,
         error_scale: error_scale(plan, case, truth),
-        is_compared: case.against != Against::Nothing,
+        compared: case.against != Against::Nothing,
         steps: plan.steps,
+        observed_at: plan.observe.clone(),
+    };
+    JudgePlan {
+        settings,
         excludes_crossings: plan.crossing_levels == CrossingLevels::Excluded,
         position_spacing: position_spacing(plan, case),
-        observed_at: plan.observe.as_deref(),
         sums: sums(plan, case),
         expectation,
         gating: case.gating.as_ref(),
