@@ -1,5 +1,4 @@
-//! Exact solutions of continuum problems ([`exact`]), and the judge of solvers ([`verify`]): error
-//! norms, observed orders of accuracy with confidence intervals, and verdicts.
+//! Exact solutions of continuum problems ([`exact`]), and the judge of solvers ([`verify`]).
 //!
 //! The package depends on no solver.
 

@@ -46,15 +46,13 @@ pub trait FacePoint {
     /// The violation.
     fn traction(&self, i: usize, what: &str, given: f64) -> Result<(), Violation>;
 
-    /// Requires u . n = 0 and no tension. The tangential traction must be `coefficient` times the
-    /// pressure against the velocity, or at most this if the face does not move.
+    /// Requires u . n = 0, no tension, and friction: at most `coefficient` times the pressure.
     ///
     /// # Errors
     /// The first violation.
     fn friction(&self, coefficient: f64) -> Result<(), Violation>;
 
-    /// Requires that x is one period further along the axis than on the opposite face. Also
-    /// requires that grad u, and therefore P, is equal on both faces.
+    /// Requires x one period further along the axis, and equal grad u, on the opposite face.
     ///
     /// # Errors
     /// The first violation.
@@ -70,8 +68,7 @@ pub struct Face {
     pub axis: usize,
     /// Whether this is the face with the larger coordinate.
     pub high: bool,
-    /// Period along the face normal (m), if the axis is periodic. Equals the length of the
-    /// reference body, unless a periodic body starts deformed.
+    /// Period along the face normal (m), if periodic: the length, unless the body starts deformed.
     pub period: f64,
     /// Condition on the motion of the face.
     pub condition: Arc<dyn Condition>,

@@ -152,7 +152,6 @@ impl<'a> Line<'a> {
     }
 
     /// Computes the nodal forces (Pa) of the residual at time `t`, and whether each end is held.
-    /// Returns `None` if a condition has no correction.
     fn forces(&mut self, t: f64) -> Option<(Vec<f64>, [bool; 2])> {
         let last = self.elements;
         let weight = |node: usize| if node == 0 || node == last { 0.5 } else { 1.0 };
@@ -250,9 +249,8 @@ fn root_mean_square(values: &[f64]) -> f64 {
 }
 
 impl Problem {
-    /// Computes the first correction of a linearised motion in a run until `t` (s). Returns `None`
-    /// unless the motion varies along exactly one axis of a single box, in 1-D, plane strain or
-    /// 3-D, without heat. Also returns `None` if the computation is too expensive.
+    /// Computes the first correction of a linearised motion in a run until `t` (s). `None` unless
+    /// the motion varies along one axis of a single box without heat, or if it is too expensive.
     pub fn first_correction(&self, t: f64) -> Option<FirstCorrection> {
         let d = self.dimension();
         let varying: Vec<usize> = (0..d).filter(|axis| self.motion.varies_along(*axis)).collect();

@@ -225,8 +225,7 @@ mod tests {
         assert_relative_eq!(force[0] - uniform[0], change, max_relative = 1e-10);
     }
 
-    /// A plane cloud with K = 1/4 and rho0 = 1 - R^2 has the motion x = a X. Its energies are I
-    /// a'^2/2 (kinetic) and C I/(2 a^2) (stored), where C = 1 and I = pi/6.
+    /// A plane cloud with K = 1/4, rho0 = 1 - R^2 and the motion x = a X.
     #[test]
     fn energies_of_a_round_cloud_match_closed_forms() {
         let disk: Arc<dyn Outline> =

@@ -35,8 +35,7 @@ impl Equation {
         std::array::from_fn(|i| outwards * cofactor(&f, i, axis))
     }
 
-    /// Computes Div P (N/m3) from grad u and `second[k][a][b] = d2 u_k/dX_a dX_b`, for a motion
-    /// that varies only along the first `dimension` axes, and for a thermal stretch.
+    /// Computes Div P (N/m3) from grad u and `second[k][a][b] = d2 u_k/dX_a dX_b`.
     pub(super) fn divergence(
         &self,
         dimension: usize,
@@ -156,8 +155,7 @@ mod tests {
         assert_relative_eq!(here.second[2][2][0], slope, max_relative = 1e-8, epsilon = 1e-9);
     }
 
-    /// On the axis, the hoop strain and its derivatives are the limits for r -> 0. For
-    /// `u_r = a r + b r^2 + c r z`, the hoop strain `u_r/r` is `a + b r + c z`.
+    /// On the axis, the hoop strain `u_r/r` of `u_r = a r + b r^2 + c r z` is `a + b r + c z`.
     #[rstest]
     fn the_hoop_is_smooth_on_the_axis(#[values(0.0, 1e-3, 0.5)] radius: f64) {
         let (a, b, c, z) = (0.1, 0.3, 0.2, 0.7);

@@ -3,8 +3,7 @@
 /// Number of points per panel and axis; exact for polynomials of degree 15.
 const POINTS: usize = 8;
 
-/// Returns `N` points in `-1 <= xi <= 1` and weights, whose sum is 2. The points are roots of the
-/// Legendre polynomial, computed by Newton's method.
+/// Returns the `N` Gauss points in `-1 <= xi <= 1` and their weights, by Newton's method.
 fn rule<const N: usize>() -> [(f64, f64); N] {
     let n = N as f64;
     std::array::from_fn(|k| {
@@ -23,8 +22,7 @@ fn rule<const N: usize>() -> [(f64, f64); N] {
     })
 }
 
-/// Returns points and weights on the box with the intervals `axes`, each divided into `panels`.
-/// Without axes, returns a single point of weight 1.
+/// Returns points and weights on the box `axes`, each axis divided into `panels`.
 pub(crate) fn points(axes: &[(f64, f64)], panels: usize) -> Vec<(Vec<f64>, f64)> {
     points_by(&rule::<POINTS>(), axes, panels)
 }
@@ -48,9 +46,8 @@ fn points_by(rule: &[(f64, f64)], axes: &[(f64, f64)], panels: usize) -> Vec<(Ve
     all
 }
 
-/// Points and weights for integrals over lattice cells, the boxes that single particles of a
-/// regular lattice represent. There are 8 points per axis in one and two dimensions, but only 4 in
-/// three dimensions, to limit a cell to 64 points.
+/// Integrals over lattice cells, the boxes of single particles of a regular lattice. There are 8
+/// points per axis in one and two dimensions, and 4 in three.
 #[derive(Debug, Clone)]
 pub struct CellQuadrature {
     /// Points of the cube from -1 to 1, with weights.
@@ -65,8 +62,7 @@ impl CellQuadrature {
         Self { points: if dimension < 3 { points(&cube, 1) } else { few() } }
     }
 
-    /// Returns the integral of `value` over the part of a cell where `holds` returns true. The cell
-    /// is a box with the given centre and half-lengths (m).
+    /// Returns the integral of `value` over the part of a cell (centre, half-lengths) that `holds`.
     pub(super) fn integral(
         &self,
         centre: &[f64],

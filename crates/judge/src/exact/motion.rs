@@ -4,8 +4,7 @@ use super::formula::{Formula, Hoisted, Jet, Number, NumberBatch, Slope};
 use super::truth::Truth;
 use mpm_subject::with_dimension;
 
-/// A displacement field u(X, t) with one formula for each component. The variables of each formula
-/// are the reference coordinates (one per component), followed by t.
+/// A displacement field u(X, t): one formula of the coordinates and t for each component.
 #[derive(Debug, Clone)]
 pub struct Motion {
     pub(super) components: Vec<Formula>,
@@ -69,16 +68,14 @@ impl Motion {
         })
     }
 
-    /// Prepares the evaluation of the motion at the reference positions `labels` (m). This call
-    /// computes the terms that do not depend on time.
+    /// Prepares the evaluation at the positions `labels` (m), with all terms constant in time.
     pub fn at_places(&self, labels: &[&[f64]]) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Jet<{ D + 1 }>>(labels, Jet::variable))
         })
     }
 
-    /// Prepares the evaluation like [`Self::at_places`], but with first derivatives only, at a
-    /// third of the cost. Second derivatives are not written.
+    /// Prepares the evaluation like [`Self::at_places`], but with first derivatives only.
     pub fn slopes_at_places(&self, labels: &[&[f64]]) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Slope<{ D + 1 }>>(labels, Slope::variable))
@@ -100,9 +97,8 @@ pub trait Places: Send {
     /// Sets the time to `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// Writes the derivatives at the position with index `place`, in the order of the positions in
-    /// [`Motion::at_places`]. The values are bit-identical to those of [`Motion::derivatives`].
-    /// Components on missing axes are not written. Does not allocate.
+    /// Writes the derivatives at the position with index `place`, bit-identical to those of
+    /// [`Motion::derivatives`]. Components on missing axes are not written. Does not allocate.
     fn derivatives(&mut self, place: usize, into: &mut Derivatives);
 }
 

@@ -56,8 +56,7 @@ impl ParametricMotion {
         self.places().iter().map(|(label, weight)| (self.at(label, t), *weight)).collect()
     }
 
-    /// Returns the factor c in `dv/dq = c v`, where v is the velocity at t = 0 and q the parameter.
-    /// `None` if the derivative is not such a multiple of v.
+    /// Returns the factor c in `dv/dq = c v` for the initial velocity v, `None` if there is none.
     pub fn velocity_factor(&self) -> Option<f64> {
         let states = self.states(0.0);
         let sum = |product: &dyn Fn(&ParametricState) -> f64| -> f64 {

@@ -69,8 +69,7 @@ pub struct Problem {
     pub shared: Option<Arc<SharedValues>>,
 }
 
-/// The residual of a linearised motion in the equation of motion and in tractions. Conditions that
-/// are linear in u are still checked with the tolerance of the problem.
+/// The residual of a linearised motion. Conditions linear in u keep the tolerance of the problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linearised {
     /// Maximum residual, relative to the terms of the condition.
@@ -286,8 +285,7 @@ impl Problem {
         uniaxial.filter(|_| is_deformed).unwrap_or(*initial)
     }
 
-    /// Computes the contribution of the law to Div P (N/m3), `f Div P1 + P1 grad f`, where P1 is
-    /// the stress for unit density and f the density factor.
+    /// Computes Div P (N/m3) as `f Div P1 + P1 grad f`, for the density factor f and P1 = P/f.
     fn divergence_of_law(
         &self,
         axes: usize,
@@ -403,8 +401,7 @@ impl Forcing {
         Self { problem: problem.clone(), places, labels, shared }
     }
 
-    /// Writes the force (m/s2) at each position and time `t` (s). Equals
-    /// [`Problem::manufactured_force`]. Allocates only for shared forces.
+    /// Writes [`Problem::manufactured_force`] (m/s2) at each position and time `t` (s).
     pub fn at(&mut self, t: f64, into: &mut [[f64; 3]]) {
         let dimension = self.problem.dimension();
         let known =

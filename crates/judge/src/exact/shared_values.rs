@@ -6,8 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Maximum number of stored `f64` (32 MiB), enough for all built-in suites.
 const MOST: usize = 1 << 22;
 
-/// Cache of forces and displacements by positions and time, filled by the first run that needs
-/// them. If the cache is full, each run computes its own values.
+/// Cache of forces and displacements by positions and time. Once full, each run computes its own.
 #[derive(Debug, Default)]
 pub struct SharedValues(Mutex<Tables>);
 

@@ -83,8 +83,7 @@ pub enum SumRegion {
 /// Maximum number of quadrature points after the last refinement.
 const MOST_POINTS: usize = 1 << 16;
 
-/// Maximum change due to the last refinement, relative to the size of the sum. The value is larger
-/// than rounding errors and smaller than discretisation errors.
+/// Maximum relative change by the last refinement, between rounding and discretisation errors.
 const TOLERANCE: f64 = 1e-10;
 
 /// Number of intervals between the times at which sizes and quadrature errors are computed.
@@ -107,8 +106,7 @@ struct SumSite {
     weight: f64,
 }
 
-/// Reason why a sum over a body has no exact value for comparison. Each message continues a
-/// sentence that starts with the name of the sum.
+/// Reason why a sum has no exact value; continues a sentence that starts with the sum's name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum SumError {
     /// The sum is zero at all times, so relative errors are undefined.

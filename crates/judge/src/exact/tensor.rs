@@ -2,8 +2,7 @@
 
 use super::formula::Number;
 
-/// Stress or displacement gradient in D dimensions. With D < 3, a gradient describes plane or
-/// uniaxial strain: its components along the other axes are zero.
+/// Stress or displacement gradient. With D < 3, components along the other axes are zero.
 pub(super) type Tensor<T, const D: usize = 3> = [[T; D]; D];
 
 /// Maximum number of terms in [`log_strain`] and [`rotation`], for stretches up to about ten.
@@ -156,8 +155,7 @@ pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T,
         let cofactors: Tensor<T, D> = tensor(|i, j| cofactor(&before, i, j));
         let det = det(&before, &cofactors);
         turn = tensor(|i, j| half * (before[i][j] + cofactors[i][j] / det));
-        // Values have converged one iteration before their derivatives. Each iteration squares the
-        // error, so a change of 1e-12 shows that both are now accurate.
+        // Values converge one iteration before derivatives, and each iteration squares the error.
         let step: Tensor<T, D> = tensor(|i, j| turn[i][j] - before[i][j]);
         if size(&step) <= 1e-12 {
             return turn;

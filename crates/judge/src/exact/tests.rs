@@ -1,5 +1,4 @@
-//! Tests of the check of exact solutions. Most of them use a wave in a body that is fixed on all
-//! faces, in one, two and three dimensions, with a manufactured force.
+//! Tests of the check, mainly with a manufactured wave in a body that is fixed on all faces.
 
 use super::formula::{Expr, Formula, Scope};
 use super::random::Random;
@@ -81,7 +80,9 @@ impl Term for LocallyDamped {
 }
 
 /// A condition given by its requirements at a point.
-pub(super) struct Demands(Box<dyn Fn(&dyn FacePoint) -> Result<(), Violation> + Send + Sync>);
+pub(super) struct Demands(Box<Requirement>);
+
+type Requirement = dyn Fn(&dyn FacePoint) -> Result<(), Violation> + Send + Sync;
 
 impl Demands {
     pub(super) fn condition(
@@ -296,8 +297,7 @@ fn the_stress_of_several_bodies_is_that_of_each() {
     }
 }
 
-/// Creates a stretched and sheared plate with nu = 0 and F = ((1, 0.2 t), (0, 1 + 0.3 t)). The
-/// correct condition for its top is P N = mu (F - F^-T) N.
+/// Creates a plate with nu = 0 and F = ((1, 0.2 t), (0, 1 + 0.3 t)), so P = mu (F - F^-T).
 fn sheared(top: Arc<dyn Condition>) -> Problem {
     let names = ["X", "Y", "t"];
     let speed = ["0.2*Y", "0.3*Y"].map(|v| bind(v, &names));
@@ -328,8 +328,7 @@ fn a_traction_may_depend_on_the_place() {
     assert_violated(found, "boundary condition: top is loaded, traction in X");
 }
 
-/// A cube under uniform pressure shrinks equally on all sides, `P N = -p J F^-T N`. The area of a
-/// face is s^2 times the reference area; a dead load does not change with it.
+/// A cube under uniform pressure shrinks equally; a dead load does not change with its area.
 #[test]
 fn pressure_acts_on_the_current_area() {
     let names = ["X", "Y", "Z", "t"];
@@ -370,8 +369,7 @@ fn damping_is_a_force_in_the_equation_of_motion() {
     assert!(made.manufactured_force(&[0.3], 0.2)[0].abs() < 1e-12);
 }
 
-/// Moves a bar with c = 1 through its first half period. Local damping of 0.6 gives the angular
-/// frequency `pi sqrt(1.6)` on the way out and `pi sqrt(0.4)` on the way back.
+/// Local damping of 0.6 gives the frequency `pi sqrt(1.6)` on the way out, `pi sqrt(0.4)` back.
 #[test]
 fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
     let swing = |out: &str, back: &str| {
@@ -446,8 +444,7 @@ fn what_is_left_is_the_largest_of_all_rims() {
     assert!(left > 0.1, "{left}");
 }
 
-/// A column is sheared along its axis, with different `P_zR` and `P_Rz`. The hoop terms of the
-/// pointwise equation and of the weak form agree.
+/// The hoop terms of the pointwise equation and of the weak form agree for `P_zR != P_Rz`.
 #[test]
 fn large_shear_about_an_axis_balances_in_weak_form() {
     let names = ["X", "Y", "t"];

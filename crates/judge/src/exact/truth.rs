@@ -21,8 +21,7 @@ pub trait Truth: Send + Sync {
         false
     }
 
-    /// Returns the out-of-plane normal component of the Cauchy stress (Pa) of a two-dimensional
-    /// body; `None` if the solution does not define it.
+    /// Returns the out-of-plane normal component of the Cauchy stress (Pa); `None` if undefined.
     fn stress_across(&self, label: &[f64], t: f64) -> Option<f64> {
         let _ = (label, t);
         None
@@ -34,8 +33,7 @@ pub trait Truth: Send + Sync {
         None
     }
 
-    /// Writes the Cauchy stress (Pa), D * D numbers, row by row. If the solution does not define
-    /// the stress, returns false and writes nothing.
+    /// Writes the Cauchy stress (Pa), row by row, or returns false if it is not defined.
     fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         let _ = (label, t, into);
         false

@@ -21,8 +21,7 @@ pub struct Violation {
     pub unit: &'static str,
 }
 
-/// Stores the violation that is largest relative to its tolerance. Another violation of the same
-/// condition must be 1 % larger, of another condition ten times larger.
+/// Stores the largest relative violation, with a preference for the condition already stored.
 #[derive(Debug, Default)]
 pub(super) struct LargestViolation(Option<Violation>);
 
@@ -50,8 +49,7 @@ impl Violation {
         self.accepted_by(1.0).unwrap_or(0.0)
     }
 
-    /// Returns the smallest tolerance with which the solution would be accepted, if its problem has
-    /// the given `tolerance`. `None` for a condition without tolerance.
+    /// Returns the smallest accepted tolerance; `None` for a condition without tolerance.
     pub fn accepted_by(&self, tolerance: f64) -> Option<f64> {
         Some(tolerance * ((self.found - self.expected?).abs() / self.allowed?))
     }

@@ -115,8 +115,7 @@ fn rounding_without_order<R: Reruns>(
     is_met.then(|| rounding_remark(bound, all, all))
 }
 
-/// Returns the remarks on a case that meets its requirement: the levels at rounding, an order that
-/// is far too high, and a shorter time step that restored the order.
+/// Returns the remarks on a case that meets its requirement.
 fn remarks(
     plan: &JudgePlan<'_>,
     gate: &GateResult,
@@ -136,8 +135,7 @@ fn remarks(
 }
 
 impl JudgePlan<'_> {
-    /// Returns the verdict and its reason for a case without expectations. The reason compares the
-    /// order with theory, and lists the drifts of conserved sums.
+    /// Returns the verdict and its reason for a case without expectations.
     fn explore(&self, judgement: &Judgement, measured: &Measured) -> (String, String) {
         let drift = self.sums.iter().map(|sum| (*sum, f64::INFINITY)).collect();
         let drifts = Limits { drift, ..Limits::default() }.found(measured);
@@ -186,8 +184,7 @@ fn measure(levels: &[LevelOutcome]) -> Measured {
     }
 }
 
-/// Returns the verdict and its reason. For a case with bounds only, the verdict is `within bounds`
-/// or `out of bounds`, and the reason starts with the bounded values.
+/// Returns the verdict (for bounds only: `within bounds` or `out of bounds`) and its reason.
 fn headline(
     expectation: &Expectation,
     judgement: &Judgement,

@@ -39,8 +39,7 @@ pub struct Convergence {
     pub settings: StudySettings,
     /// Whether the case has bounds on measured values only. Every usable level then counts.
     pub bounded: bool,
-    /// Reason why an external solver meets the requirement of `run --gate`, if it does. A case
-    /// without requirement is accepted only if all its errors are rounding errors.
+    /// Reason why an external solver meets the requirement of `run --gate`, if it does.
     pub accepted: Option<Acceptance>,
     /// Remarks of `run --gate`: rounding bound, order far above theory, shorter time step.
     pub remarks: Vec<String>,
@@ -54,8 +53,7 @@ pub struct Convergence {
     pub floor: Option<Floor>,
     /// The levels, coarse to fine.
     pub levels: Vec<LevelOutcome>,
-    /// Limit of the displacement (m) at the observed point in 1-D, or the reason why the levels
-    /// give no limit; `None` if no point is observed.
+    /// Limit of the displacement (m) at the observed point in 1-D, or the reason why there is none.
     pub observed_limit: Option<Result<LimitEstimate, EstimateRefusal>>,
 }
 
@@ -91,8 +89,7 @@ pub struct LevelOutcome {
     pub rounding_bound: Option<f64>,
     /// Whether the displacement error (m) is smaller than `rounding_bound`.
     pub is_below_rounding: bool,
-    /// Largest difference between repeated runs, in the judged norm and divided by the scale of the
-    /// error. NaN if the runs cannot be compared; `None` if the level ran once.
+    /// Largest difference between repeated runs, relative to the scale; NaN if not comparable.
     pub spread: Option<f64>,
     /// Order between the next coarser level and this one.
     pub order: Option<f64>,
@@ -133,8 +130,7 @@ impl Convergence {
         !self.bounded && self.accepted.is_none() && failures.contains(&self.judgement.verdict)
     }
 
-    /// Returns the exact displacement (m) of the observed point in 1-D at the end of the run;
-    /// `None` without an observed point or an exact solution.
+    /// Returns the exact displacement (m) of the observed point in 1-D at the end of the run.
     pub fn observed_exact(&self) -> Option<f64> {
         let exact = self.levels.last()?.run.observed_exact.as_deref()?;
         let [u] = exact else { return None };

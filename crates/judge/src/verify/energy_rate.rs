@@ -67,8 +67,7 @@ mod tests {
         assert_abs_diff_eq!(found.half_width(), 0.0, epsilon = 1e-12);
     }
 
-    /// An oscillation of 10 % with a period of twenty instants. If each part contains whole
-    /// periods, it hardly changes the rate. Otherwise it widens the interval.
+    /// An oscillation of 10 % with a period of twenty instants.
     #[test]
     fn oscillation_is_not_a_drift() {
         let swing = |t: f64| 1.0 + 0.1 * libm::sin(t * std::f64::consts::PI / 10.0);

@@ -4,8 +4,7 @@
 //!   on the accumulated rounding error of positions ([`rounding_bound`]).
 //! - *Spread*: the difference between repeated runs exceeds [`MOST_SPREAD`] of the error.
 //!
-//! Both rules apply to observed orders only. Bounds on errors are checked on excluded levels too,
-//! because a small error satisfies them regardless of its cause.
+//! Both rules apply to observed orders only: a small error meets a bound regardless of its cause.
 
 use crate::verify::{Axis, Judgement, LevelOutcome, NormName, Verdict, format_number, rounded};
 use mpm_subject::named;
@@ -34,8 +33,7 @@ pub fn single_precision_spacing(largest: f64) -> Option<f64> {
     is_normal.then(|| f64::from(largest) - f64::from(largest.next_down()))
 }
 
-/// Returns the bound (m), in `norm`, on the accumulated rounding error of positions after `steps`
-/// steps. In each step positions are rounded to multiples of `spacing` (m).
+/// Returns the bound (m) on the accumulated rounding of positions to multiples of `spacing` (m).
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
 /// `spacing/sqrt 12`. In the worst case all rounding errors are equal. This is possible because

@@ -13,8 +13,7 @@ pub struct JudgePlan<'a> {
     pub settings: StudySettings,
     /// Whether to exclude levels on which particles change their cell.
     pub excludes_crossings: bool,
-    /// Distance (m) between neighbouring positions in single precision. Set if a solver in single
-    /// precision is judged by its displacement and the exact motion is known.
+    /// Distance (m) between neighbouring positions in single precision, if judged by displacement.
     pub position_spacing: Option<f64>,
     /// Conserved sums whose drift is reported for a case without an expectation.
     pub sums: Vec<Conserved>,
@@ -121,8 +120,7 @@ pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
     levels.iter().map(marked).collect()
 }
 
-/// Converts levels to input of the requirement check. Unlike [`series`], includes levels that are
-/// excluded from the order because of rounding or spread.
+/// Converts levels to input of the requirement check, also those excluded from the order.
 pub(super) fn usable_series(levels: &[LevelOutcome]) -> Vec<Level> {
     let marked = |level: &LevelOutcome| {
         let judged = level.to_level();

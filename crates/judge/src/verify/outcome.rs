@@ -169,8 +169,7 @@ impl CaseOutcome {
         }
     }
 
-    /// Converts the outcome to that of a case that does not apply to its solver. `lacks` are the
-    /// missing capabilities; `verb` introduces them in the reason.
+    /// Converts the outcome to that of a case that lacks capabilities; `verb` introduces them.
     #[must_use]
     pub fn not_applicable(self, lacks: Vec<String>, verb: &str) -> Self {
         let verdict = CaseResult::NotApplicable.name().to_owned();

@@ -57,16 +57,14 @@ const MOST_ROUNDING: f64 = 0.01;
 /// Maximum number of times that the time step is halved.
 const HALVINGS: i32 = 3;
 
-/// Minimum relative decrease of the error on the finest level after the time step is halved. With a
-/// smaller decrease the other levels do not run again.
+/// Minimum relative decrease of the error on the finest level after the time step is halved.
 const LEAST_FALL: f64 = 0.05;
 
 /// Minimum exponent of h for which a time step counts as refined together with the cells.
 const FOLLOWS: f64 = 0.5;
 
-/// Measures the effect of halving the spacings of the other axes on the error of the finest level
-/// that counts. `None` if the error has not stopped decreasing and the suite expects no floor, if
-/// this level failed, or if spacings cannot be halved.
+/// Measures the effect of halving the other spacings on the error of the finest level that counts.
+/// `None` if the error decreases and no floor is expected, or if this level failed.
 ///
 /// Runs one to three probes in parallel. The results are listed in the order of the axes.
 pub(super) fn floor<R: Reruns>(
@@ -159,8 +157,7 @@ fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
         && first.dt < last.dt * libm::pow(first.h / last.h, FOLLOWS)
 }
 
-/// Estimates the rounding error in the judged norm and relative to the judged scale: the steps of a
-/// random walk of the largest number from which the quantity is computed.
+/// Estimates the relative rounding error of a random walk of the largest number of the quantity.
 pub(super) fn rounding<R: Reruns>(
     plan: &JudgePlan<'_>,
     levels: &[LevelOutcome],

@@ -111,8 +111,7 @@ pub(crate) struct SpaceTimeBox<'a> {
 }
 
 impl SpaceTimeBox<'_> {
-    /// Divides the box into at most `count` cells and returns a random event in each cell. Axes of
-    /// zero length, and axes for which `varies` returns false, are not divided.
+    /// Returns a random event in each of at most `count` cells; only axes that vary are divided.
     pub(crate) fn spread(
         &self,
         count: usize,

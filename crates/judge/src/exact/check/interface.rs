@@ -1,11 +1,9 @@
 //! Checks the interface of two bodies at points of their faces.
 //!
-//! Bodies with one velocity field are bonded: displacement and traction are continuous across
-//! common faces. Bodies in contact do not penetrate each other. They push but do not pull where
-//! they touch, with equal and opposite tractions, and friction resists sliding.
+//! Bodies with one velocity field are bonded: displacement and traction are continuous. Bodies in
+//! contact do not penetrate and do not pull, and friction resists sliding.
 //!
-//! A formula that describes several bodies may jump at their interface. The motion at the face is
-//! therefore expanded about a point 1e-9 body lengths inside the body.
+//! The motion may jump at a face, so it is expanded about a point 1e-9 body lengths inside.
 
 use super::event::{AXES, Event, FACE_EVENTS, OnFace};
 use super::friction::{InterfaceTraction, coulomb};
@@ -29,9 +27,8 @@ impl Condition for Interface {
 /// Distance of the expansion point from the face, relative to the length of the body.
 const INSIDE: f64 = 1e-9;
 
-/// Checks the high face of the body `one` against the opposite low face of the body `other` along
-/// `axis`. With a coefficient of `friction` the bodies are in contact, otherwise they are bonded.
-/// `largest` contains the scales of the residuals over all bodies.
+/// Checks the high face of the body `one` against the low face of the body `other` along `axis`.
+/// Without `friction` the bodies are bonded. `largest` contains the scales of the residuals.
 ///
 /// # Errors
 /// The first condition that the motions violate.
@@ -56,8 +53,7 @@ pub fn meets(
     found.into_result()
 }
 
-/// Returns the motion at a point on a face, expanded about a point inside the body. `inside` is the
-/// distance (m) between the two points along `axis`.
+/// Returns the motion on a face, expanded about a point `inside` (m) the body along `axis`.
 fn on_face(problem: &Problem, event: &Event, axis: usize, inside: f64) -> Derivatives {
     let mut label = event.label.clone();
     label[axis] -= inside;

@@ -15,8 +15,7 @@ use crate::exact::tensor::tensor;
 use crate::exact::violation::{LargestViolation, Violation};
 use mpm_subject::PlaneState;
 
-/// Checks that the displacement is finite in the whole body and not identically zero. Zero
-/// displacement is allowed in a body with initial stress or thermal expansion.
+/// Checks that the displacement is finite everywhere and, without initial stress or heat, not zero.
 pub(crate) fn presence(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     let Some(first) = survey.points.first() else { return Ok(()) };
     for SurveyPoint { event, now, .. } in &survey.points {
@@ -107,8 +106,7 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     found.into_result().map(|()| left)
 }
 
-/// Checks that the traction on every rim balances the pressure on the rim, which is zero on a free
-/// rim. Returns the largest difference, relative to the stress.
+/// Returns the largest imbalance of traction and pressure on the rims, relative to the stress.
 pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let Some(outline) = &problem.outline else { return Ok(0.0) };
     let mut left = 0.0;
@@ -193,8 +191,7 @@ pub(crate) fn known_stress(problem: &Problem, survey: &Survey) -> Result<(), Vio
     Ok(())
 }
 
-/// Checks for a law with history that its stress is known: the motion is uniaxial strain, and a
-/// body that deforms has equal initial stresses across this axis, without shear.
+/// A law with history requires uniaxial strain, and equal lateral initial stresses without shear.
 pub(crate) fn uniaxial_strain(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     if !problem.equation.has_history() {
         return Ok(());

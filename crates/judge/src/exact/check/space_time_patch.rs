@@ -53,8 +53,7 @@ impl SpaceTimePatch {
         Self { centre, half }
     }
 
-    /// Creates a patch that covers the whole box and a time interval around `t` (s). The interval
-    /// is a part of the run from 0 to `until` (s), at most `longest` (s) long.
+    /// Creates a patch that covers the box and at most `longest` (s) of the run around `t` (s).
     pub(super) fn whole(from: &[f64], to: &[f64], until: f64, longest: f64, t: f64) -> Self {
         let mut half: Vec<f64> =
             from.iter().zip(to).map(|(low, high)| 0.5 * (high - low)).collect();
@@ -81,8 +80,7 @@ impl SpaceTimePatch {
         Self { centre: (0..half.len()).map(within).collect(), half }
     }
 
-    /// Returns an upper bound on the sum of all terms of a balance over a raster. Every term is
-    /// assumed to have the density given by `largest` everywhere in the patch.
+    /// Returns an upper bound on the sum of all terms of a balance with the density `largest`.
     pub(super) fn largest_sum(&self, largest: &Densities, per_axis: usize) -> f64 {
         let d = self.dimension();
         // On one axis, the bump has the integral 32/35, and the magnitude of its slope 2.

@@ -1,9 +1,8 @@
 //! Samples a problem: positions and times of the checks, and the largest terms.
 //!
-//! Events are distributed evenly over the body and the run. An event is a position with a time. If
-//! terms are large only in a small part, more events are used, and further events are placed close
-//! to the largest terms, so that narrow pulses are resolved. Residuals are divided by the largest
-//! term at all events, because terms far from a pulse are only rounding errors.
+//! Events (positions with a time) are distributed evenly. If terms are large only in a small part,
+//! more events are used, close to the largest terms. Residuals are divided by the largest term at
+//! all events, because terms far from a pulse are only rounding errors.
 
 use super::event::{BROAD, EVENTS, Event, FACE_EVENTS, SpaceTimeBox, greatest, largest};
 use crate::exact::motion::Derivatives;
@@ -19,8 +18,7 @@ const ADDED: usize = 16;
 /// its maximum.
 const RESOLVED: f64 = 1.0 / 16.0;
 
-/// Maximum distance of an added event in the first round, relative to the size of the body and the
-/// duration of the run. Each round halves this distance.
+/// Maximum relative distance of an added event in the first round. Each round halves it.
 const REACH: f64 = 1.0 / 32.0;
 
 /// The largest magnitudes of a motion and of the terms in its equation.

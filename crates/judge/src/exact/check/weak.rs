@@ -18,16 +18,14 @@ use crate::exact::violation::Violation;
 /// Number of patches if the fields may have kinks at unknown positions.
 const PATCHES: usize = 12;
 
-/// Number of patches if the fields are smooth. The pointwise equation then implies the weak form;
-/// the patches only detect a front so steep that it contains no random point.
+/// Number of patches if the fields are smooth. They only detect a front between all random points.
 const PATCHES_OF_SMOOTH_FIELDS: usize = 2;
 
 pub(crate) fn patches(smooth: bool) -> usize {
     if smooth { PATCHES_OF_SMOOTH_FIELDS } else { PATCHES }
 }
 
-/// Maximum imbalance, relative to the sum of the magnitudes of all terms. The quadrature error of a
-/// jump that runs obliquely through the raster is about 0.001.
+/// Maximum relative imbalance. The quadrature error of a jump oblique to the raster is about 0.001.
 const TOLERANCE: f64 = 0.005;
 
 /// Maximum duration of a patch that the raster resolves, in wave transit times through the body.
@@ -52,8 +50,7 @@ fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
     }
 }
 
-/// Minimum scale of an imbalance, as a share of the largest terms. Smaller terms, such as those
-/// next to a narrow pulse, are compared with this scale.
+/// Minimum scale of an imbalance, as a share of the largest terms.
 const SMALLEST: f64 = 1e-3;
 
 /// Maximum number of times that an unresolved patch is halved.
@@ -204,8 +201,7 @@ fn balance(
     };
     balances(patch, condition, &densities, |raster, smallest| {
         let all = sums(problem, raster, smallest, only_first);
-        // If only first derivatives are computed, the square root of a constant zero has NaN
-        // derivatives. With second derivatives, it has zero derivatives.
+        // With first derivatives only, the square root of a constant zero has NaN derivatives.
         let is_finite = all.iter().all(|sums| sums.size.is_finite());
         if is_finite { all } else { sums(problem, raster, smallest, false) }
     })

@@ -9,8 +9,7 @@ use super::unary::Unary;
 #[derive(Debug, Clone)]
 pub struct Expr {
     source: String,
-    /// Children precede their parents, and the root is last. A flat list is dropped and cloned
-    /// without recursion, even for a long chain of `+`.
+    /// Children precede their parents; the root is last. Drop and clone therefore do not recurse.
     nodes: Vec<Node>,
 }
 
@@ -55,8 +54,7 @@ impl Expr {
         &self.source
     }
 
-    /// Returns all occurrences of free names with their spans, in reading order. Builtin names,
-    /// called functions and sum indices are not free names.
+    /// Returns free names (not builtins, functions, sum indices) with spans, in reading order.
     pub fn names(&self) -> Vec<(String, Range<usize>)> {
         self.collect(|kind| match kind {
             NodeKind::Name(name) => Some(name),

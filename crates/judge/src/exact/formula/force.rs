@@ -36,8 +36,7 @@ impl FormulaForce {
         Self { formulas: formulas.to_vec(), labels, hoisted }
     }
 
-    /// Writes the force (m/s2) at each position and time `t` (s). `u` returns the displacement (m)
-    /// of the position with a given index. Does not allocate.
+    /// Writes the force (m/s2) at each position; `u` returns the displacement (m) of a position.
     pub fn write(&mut self, t: f64, u: &dyn Fn(usize) -> [f64; 3], into: &mut [[f64; 3]]) {
         if let Some(hoisted) = &mut self.hoisted {
             hoisted.set_time(t);
@@ -84,8 +83,7 @@ fn depends_on_displacement(formulas: &[Formula]) -> bool {
 }
 
 impl Formula {
-    /// Evaluates the formula at the reference position `label` (m) and time `t` (s), for the
-    /// displacement `u` (m). The formula need not depend on `u`.
+    /// Evaluates the formula at the reference position `label` (m) for the displacement `u` (m).
     pub fn at_displaced(&self, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         at_displaced(self, label, t, u)
     }

@@ -14,8 +14,7 @@ pub type Jet<const N: usize> = Dual<N, [[f64; N]; N]>;
 
 /// A value with its first derivatives along `N` directions, at a third of the cost of a [`Jet`].
 ///
-/// Results are bit-identical to those of a jet, with one exception: if the derivative of a function
-/// is infinite, a gradient component of zero becomes NaN.
+/// Equal to a jet bit by bit, except that zero times an infinite derivative is NaN.
 pub type Slope<const N: usize> = Dual<N, ()>;
 
 /// A value with its first derivatives, and second derivatives of the type `H`.

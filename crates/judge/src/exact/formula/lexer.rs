@@ -180,8 +180,7 @@ impl<'a> Lexer<'a> {
 pub struct FormulaError {
     /// The error in one line.
     pub message: String,
-    /// Byte range of the error: in the formula, or in the body of the function `within`. For a
-    /// refused declaration, the range is in the declared name.
+    /// Byte range in the formula, in the body of `within`, or in the name of a declaration.
     pub span: Range<usize>,
     /// A correction, if known.
     pub help: Option<String>,

@@ -17,9 +17,8 @@ macro_rules! elementary {
 
 /// A number type over which formulas can be evaluated.
 ///
-/// The inherent methods of `f64` with these names take precedence, and call the platform's
-/// mathematical library. For bit-identical results on all platforms, call the trait methods in code
-/// generic over `Number`, or as `Number::sin(x)`.
+/// Inherent methods of `f64` take precedence and are not bit-identical on all platforms: call the
+/// trait methods in code generic over `Number`, or as `Number::sin(x)`.
 pub trait Number:
     Copy
     + PartialEq
@@ -142,8 +141,7 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// The values of one formula at several positions and times. Each instruction is decoded once per
-/// batch. Each number is bit-identical to an evaluation in `f64`.
+/// One formula at several positions and times, bit-identical to evaluations in `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NumberBatch([f64; NumberBatch::LEN]);
 

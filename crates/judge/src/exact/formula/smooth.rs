@@ -28,8 +28,7 @@ impl Formula {
     /// Returns, for each register, whether its value depends on a variable at some step.
     fn varying(&self) -> Vec<bool> {
         let mut varying = vec![false; self.registers];
-        // An iteration of a formula's `sum` reads registers that the previous iteration wrote, so
-        // the loop below repeats until nothing changes.
+        // An iteration of `sum` reads registers of the previous one: repeat until nothing changes.
         loop {
             let before = varying.clone();
             for step in &self.code {

@@ -189,8 +189,7 @@ fn differences(
     event.judge(allowed, name, (divergence, exact), "W/m3")
 }
 
-/// Checks the heat equation `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, by comparing the source
-/// s that it requires with the prescribed source.
+/// Compares the source s of `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s` with the given one.
 fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(), Violation> {
     let mut found = LargestViolation::default();
     for point in points {

@@ -21,8 +21,7 @@ pub struct HeatFace {
     pub condition: Arc<dyn ThermalCondition>,
 }
 
-/// An initial-boundary-value problem of heat in a box,
-/// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, and its exact temperature.
+/// A problem of heat in a box, `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, and its solution.
 #[derive(Debug, Clone)]
 pub struct Conduction {
     /// Lowest corner of the body (m).
@@ -125,8 +124,7 @@ pub trait ThermalCondition: Debug + Send + Sync {
     fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation>;
 }
 
-/// A point of a face at one time, with the elementary requirements on the temperature: a value, a
-/// heat inflow, or continuity with the opposite face.
+/// A point of a face at one time, with the elementary requirements on the temperature.
 pub trait HeatFacePoint {
     /// Evaluates a formula of the coordinates and t at this point and time.
     fn value(&self, formula: &Formula) -> f64;
@@ -143,8 +141,7 @@ pub trait HeatFacePoint {
     /// The violation.
     fn has_temperature(&self, given: f64) -> Result<(), Violation>;
 
-    /// Requires that the heat inflow per reference area (W/m^(D-1)) is `given`. `what` describes
-    /// the face in messages; `size` is the scale of the terms in `given`.
+    /// Requires the heat inflow `given` (W/m^(D-1), reference area); `size` scales its terms.
     ///
     /// # Errors
     /// The violation.
@@ -188,8 +185,7 @@ impl HeatForcing {
         }
     }
 
-    /// Writes the source (W/kg) at each position and time `t` (s), equal to
-    /// [`Conduction::manufactured_source`]. Does not allocate.
+    /// Writes [`Conduction::manufactured_source`] (W/kg) at each position. Does not allocate.
     pub fn at(&mut self, t: f64, into: &mut [f64]) {
         self.warm.set_time(t);
         if let Some(motion) = &mut self.motion {

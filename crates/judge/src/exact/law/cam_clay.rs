@@ -129,8 +129,7 @@ impl CamClayLaw {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }
 
-    /// Computes the state at which the distance between `eta` and the K0 ratio is `exp(-u)` times
-    /// that at yield. Returns `ln(p/p_y)`, the compaction after yield, and the ratio.
+    /// Returns `ln(p/p_y)`, the compaction after yield and `eta`, at the K0 distance `exp(-u)`.
     fn beyond_yield(&self, u: f64) -> [f64; 3] {
         let (start, m2, [limit, weight]) =
             (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);
@@ -242,8 +241,7 @@ mod tests {
         piola * libm::exp(strain)
     }
 
-    /// Compares the constant ratio of the K0 line, and the mean stress of a path from an isotropic
-    /// state, with values from an independent program.
+    /// Values of an independent program.
     #[test]
     fn a_path_from_an_isotropic_state_approaches_the_k0_line() {
         let law = clay(100.0);
@@ -260,8 +258,7 @@ mod tests {
         assert_relative_eq!(law.modulus(), slope, max_relative = 1e-6);
     }
 
-    /// The plastic strain rates along the path, from central differences, satisfy the flow rule,
-    /// the elastic law, the hardening rule and zero lateral strain.
+    /// The plastic strain rates satisfy flow, elastic and hardening rules, without lateral strain.
     #[rstest]
     fn path_satisfies_the_rate_equations(
         #[values(100.0, 150.0, 400.0)] preconsolidation: f64,

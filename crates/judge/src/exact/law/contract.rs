@@ -3,8 +3,7 @@
 use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
 
-/// A law between the displacement gradient and the first Piola-Kirchhoff stress P, generic over
-/// [`Number`], so automatic differentiation gives the divergence of P.
+/// A law for the first Piola-Kirchhoff stress P, generic over [`Number`] to be differentiated.
 pub(super) trait ConstitutiveLaw {
     /// Name of the equation of motion in suites.
     const NAME: &'static str;
@@ -30,36 +29,31 @@ pub(super) trait ConstitutiveLaw {
     /// for a solid.
     fn modulus(&self) -> f64;
 
-    /// Returns the ratio of P, energy and modulus at the reference density `density` (kg/m3) to
-    /// those at unit density; 1 if the law does not depend on the density.
+    /// Returns the ratio of P, energy and modulus at `density` (kg/m3) to those at unit density.
     fn density_factor<T: Number>(&self, density: T) -> T {
         let _ = density;
         T::from(1.0)
     }
 
-    /// Returns `3 lambda + 2 mu` (Pa), the stiffness against equal strain on all axes, for a
-    /// small-strain law; `None` for a finite-strain law.
+    /// Returns `3 lambda + 2 mu` (Pa) for a small-strain law, `None` for a finite-strain law.
     fn small_strain_modulus(&self) -> Option<f64> {
         None
     }
 
-    /// Computes `F_33 - 1` of a plate in plane stress (sigma_33 = 0), for the in-plane displacement
-    /// gradient; `None` if the law does not implement plane stress.
+    /// Computes `F_33 - 1` of a plate in plane stress; `None` if the law does not implement it.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let _ = grad;
         None
     }
 
     /// Computes P (Pa) of a body in uniaxial strain with the initial stress `initial` (Pa), for a
-    /// law whose yield condition limits the total stress. `None` for other laws, for which the
-    /// initial stress is added to the stress of the law.
+    /// law whose yield condition limits the total stress; `None` for other laws.
     fn piola_from<T: Number>(&self, grad: &Tensor<T>, initial: &Tensor<T>) -> Option<Tensor<T>> {
         let _ = (grad, initial);
         None
     }
 
-    /// Whether a body in uniaxial strain along the first axis, with the initial stress `initial`
-    /// (Pa), yields at the displacement gradient `grad`.
+    /// Whether a body in uniaxial strain along the first axis yields at `grad`.
     fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
         let _ = (grad, initial);
         false

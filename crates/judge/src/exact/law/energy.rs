@@ -58,9 +58,8 @@ fn stress_is_the_derivative_of_the_energy(
     }
 }
 
-/// The closed form holds along the axes, also for equal stretches: `P_ii = (lambda ln J + 2 mu ln
-/// s_i)/s_i` for the law of Hencky, `P_ii = 2 mu (s_i - 1) + lambda (J - 1) J/s_i` for the
-/// corotated law. After a rotation, `P(Q F) = Q P(F)`.
+/// Along the axes, `P_ii = (lambda ln J + 2 mu ln s_i)/s_i` for the law of Hencky, and `P_ii = 2 mu
+/// (s_i - 1) + lambda (J - 1) J/s_i` for the corotated law. `P(Q F) = Q P(F)`.
 #[rstest]
 fn stress_has_its_closed_form_along_the_axes(
     #[values([1.3, 0.6, 1.0], [1.2; 3], [4.0, 0.2, 1.0], [1.0 + 1e-9, 1.0, 1.0])] stretches: [f64;

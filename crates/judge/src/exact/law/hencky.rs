@@ -1,5 +1,4 @@
-//! Hencky elasticity, `P = tau F^-T`, `tau = lambda tr(eps) I + 2 mu eps`, `eps = ln(F F^T)/2`
-//! (Hencky 1928; along the axes `P_ii = (lambda ln J + 2 mu ln F_ii)/F_ii`).
+//! Hencky elasticity, `P = tau F^-T`, `tau = lambda tr(eps) I + 2 mu eps`, `eps = ln(F F^T)/2`.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;

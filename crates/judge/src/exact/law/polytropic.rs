@@ -1,5 +1,4 @@
-//! A polytropic gas, `P = -p J F^-T`, `p = K (rho0/J)^g`. Its energy is the work of expansion from
-//! J to infinity, `W = K rho0^g J^(1-g)/(g - 1)`.
+//! A polytropic gas, `P = -p J F^-T`, `p = K (rho0/J)^g`, `W = K rho0^g J^(1-g)/(g - 1)`.
 //!
 //! Stress and energy are for unit density; `rho0^g` is [`ConstitutiveLaw::density_factor`].
 

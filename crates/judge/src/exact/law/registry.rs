@@ -72,8 +72,7 @@ macro_rules! laws {
                 }
             }
 
-            /// Computes the energy W (J/m3) whose derivative is P, zero at rest or, for a gas, in
-            /// infinite expansion. Returns `None` for a law without energy.
+            /// Computes the energy W (J/m3) whose derivative is P; `None` for a law without energy.
             pub fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
                 match self {
                     $(Self::$law(law) => law.energy(grad),)+

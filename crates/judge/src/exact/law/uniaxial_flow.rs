@@ -96,14 +96,12 @@ pub(super) struct UniaxialLaw {
 }
 
 impl UniaxialLaw {
-    /// Returns the derivatives of the axial and the lateral stress (Pa) with respect to the
-    /// magnitude of the strain; `sign` is -1 in compression and 1 in extension.
+    /// Returns the slopes of axial and lateral stress (Pa); `sign` is -1 in compression, else 1.
     fn rates(&self, sign: f64) -> [f64; 2] {
         [sign * self.lame.modulus(), sign * self.lame.lambda]
     }
 
-    /// Returns the yield condition that a path reaches first from the stresses `start` (Pa), and
-    /// the magnitude of the strain at yield. `None` if the path never reaches one.
+    /// Returns the yield condition that a path from `start` (Pa) reaches first, and its strain.
     fn first_yield<T: Number>(&self, sign: f64, start: [T; 2]) -> Option<(&UniaxialYield, T)> {
         let reached = self.limits.iter().filter_map(|limit| {
             let towards = limit.dot(self.rates(sign));
@@ -135,8 +133,7 @@ impl UniaxialLaw {
         if !(closes && beyond.value() > to_apex.value()) {
             return after(beyond);
         }
-        // A path that reaches the apex with the axial stress on the other side could leave it
-        // again. This is not implemented, and NaN makes the check of the solution fail.
+        // A path that could leave the apex again is not implemented: NaN makes the check fail.
         let stays = sign * gap.value() > 0.0;
         if stays { after(to_apex) } else { [T::from(f64::NAN); 2] }
     }
@@ -219,8 +216,7 @@ mod tests {
         hold(&J2Law::new(18e3, 0.2, 20.0, 500.0), Lame::new(18e3, 0.2), strain, first);
     }
 
-    /// Compression from K0 states with the closed forms of the strain at yield, and of the slope
-    /// after yield. For Mohr-Coulomb `(1 + s) l - (1 - s) a = 2 c cos(phi)`.
+    /// Compression from K0 states against closed forms of the yield strain and the later slope.
     #[test]
     fn compression_from_a_lateral_stress_yields_at_the_closed_form() {
         let (start, s) = ([-40.0, -20.0], 0.5);

@@ -1,11 +1,9 @@
-//! Parts of a body that become particles, and merging of small parts. A regular lattice divides
-//! space into boxes, called lattice cells here, each with one particle.
+//! Parts of a body that become particles, and merging of small parts.
 
 use super::ROUNDING;
 use std::collections::BTreeMap;
 
-/// Minimum size of a piece that is not merged with a neighbour, as a share of a lattice cell. Alone
-/// at a node, a piece limits the time step as much as a cell of its width.
+/// Minimum piece, as a share of a lattice cell. A smaller piece alone would limit the time step.
 const LEAST: f64 = 0.25;
 
 /// The part of a lattice cell that belongs to the body.
@@ -75,9 +73,8 @@ impl Piece {
 }
 
 /// Merges pieces smaller than a quarter of a lattice cell with the neighbour that shares the
-/// longest boundary, the smallest piece first. Volumes and first moments do not change. The
-/// centroid of a merged piece must lie in the body (`holds`). `cuts` contains all lattice cells,
-/// `along` per row, with half-lengths `half` (m) around their `centres` (m).
+/// longest boundary, if the centroid stays in the body (`holds`), the smallest piece first. `cuts`
+/// contains all cells, `along` per row, with half-lengths `half` (m) around `centres` (m).
 pub fn join_small(
     cuts: &mut [Cut],
     along: usize,

@@ -244,8 +244,7 @@ impl AreaMoments {
         all
     }
 
-    /// Adds a triangle. The mean of x y over a triangle is 1/12 of the sum of x y at the three
-    /// corners plus the product of the sums of x and of y.
+    /// The mean of x y is 1/12 of the sum at the corners plus the product of the sums of x and y.
     fn add(&mut self, corners: TriangleCorners) {
         let [a, b, c] = &corners;
         let area = 0.5 * turn(a, b, c);
@@ -328,8 +327,7 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
             };
             turn(&a, &b, &c) > 0.0 && left.iter().all(|k| own.contains(k) || !inside(&corners[*k]))
         };
-        // A corner on a straight line is removed first. If rounding hides all ears, the largest
-        // triangle is removed; the sum of signed areas remains correct.
+        // Removes corners on a straight line first. Without ears, the largest triangle is removed.
         let area = |i: &usize| at(*i).map(|p| side(&at(*i)[0], &p));
         let area = |i: &usize| cross(&area(i)[1], &area(i)[2]);
         let flat = (0..n).find(|i| area(i) == 0.0);
@@ -343,8 +341,7 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
     found
 }
 
-/// Returns the part of a convex polygon where `height`, a linear function of position, is not
-/// negative (Sutherland & Hodgman 1974, Reentrant polygon clipping).
+/// Returns the part of a convex polygon where `height` is not negative (Sutherland & Hodgman 1974).
 pub(super) fn clip(corners: &[Point], height: impl Fn(&Point) -> f64) -> Vec<Point> {
     let mut kept = Vec::with_capacity(corners.len() + 1);
     for (i, to) in corners.iter().enumerate() {

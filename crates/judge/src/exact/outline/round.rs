@@ -122,8 +122,7 @@ impl Outline for Round {
         self.each_rim().enumerate().map(circle).collect()
     }
 
-    /// Returns the whole lattice cell if its centre is inside the body. The rim becomes a
-    /// staircase, with an error of the volume that decreases with the spacing.
+    /// Returns the whole lattice cell if its centre is inside: the rim becomes a staircase.
     fn cut(&self, centre: &[f64], _: &[f64]) -> Cut {
         if self.holds(centre) { Cut::Whole } else { Cut::Nothing }
     }

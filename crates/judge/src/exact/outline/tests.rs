@@ -61,8 +61,7 @@ fn particles(body: &Polygon, count: i32) -> Vec<Piece> {
     all.collect()
 }
 
-/// Compares mass and first moments of the particles with those of the polygon. Each corner may have
-/// a piece in the next cell that is so small that it is omitted.
+/// Each corner may have a piece in the next cell that is so small that it is omitted.
 fn is_exact(corners: &[[f64; 2]], count: i32) {
     let cell = 1.0 / f64::from(count * count);
     let bound = 1e-13 + corners.len() as f64 * ROUNDING * cell;
@@ -165,8 +164,7 @@ proptest! {
         }
     }
 
-    /// The charts cover the body exactly once: integrals of a quadratic polynomial over all charts,
-    /// with two Gauss points per axis, add up to the integral over the body.
+    /// Integrals of a quadratic polynomial over all charts add up to the integral over the body.
     #[test]
     fn charts_cover_the_polygon(corners in star()) {
         prop_assume!(is_around_its_centre(&corners));

@@ -1,7 +1,6 @@
 //! Cost of accuracy: the method that reaches an error with the least work.
 //!
-//! Work is any additive measure, such as seconds or the number of transfers, which is equal on all
-//! machines. Rankings do not extrapolate: larger errors do not reach the target.
+//! Work is any additive measure, such as seconds or the number of transfers.
 
 mod exponent;
 mod ranking;

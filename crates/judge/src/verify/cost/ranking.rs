@@ -119,8 +119,7 @@ fn order(a: &[Reach], b: &[Reach]) -> Ordering {
 }
 
 /// Ranks the comparable cases of a suite, with one ranking for each problem; `work` returns the
-/// work of a level. Cases without exact solution or reference, problems without an error scale, and
-/// cases with fewer than three levels are excluded.
+/// work of a level. Cases without an error scale or with fewer than three levels are excluded.
 pub fn rankings<'a>(
     cases: impl IntoIterator<Item = &'a CaseOutcome>,
     work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
@@ -137,8 +136,7 @@ pub fn rankings<'a>(
     grouped(methods).into_iter().map(rank).collect()
 }
 
-/// Ranks the cases of a suite by the number of particle-node transfers. External solvers are
-/// excluded, because they do not count transfers.
+/// Ranks the cases of a suite by particle-node transfers, which external solvers do not count.
 pub fn by_transfers(cases: &[CaseOutcome]) -> Vec<Ranking> {
     let is_counted = |case: &&CaseOutcome| {
         let levels = case.convergence().map(|study| study.levels.as_slice());

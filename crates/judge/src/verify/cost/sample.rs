@@ -42,7 +42,6 @@ const LEAST_ORDER: f64 = 0.2;
 const FEWEST: usize = 3;
 
 /// Minimum ratio of an error to that of the previous level for which the error counts as growing.
-/// Smaller changes are fluctuations of an error that has stopped decreasing.
 const GROWS: f64 = 1.25;
 
 /// A range of neighbouring levels over which the error decreases.
@@ -136,8 +135,7 @@ fn end(samples: &[Sample], next: usize) -> End {
 /// Minimum relative decrease of the error that justifies more work.
 pub(super) const WORTH: f64 = 0.01;
 
-/// Returns the indices of the samples on the Pareto front, from the least work to the smallest
-/// error. Of equal samples only the first is included.
+/// Returns the indices of the samples on the Pareto front, from the least work.
 pub fn pareto_front(samples: &[Sample]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..samples.len()).filter(|k| samples[*k].counts()).collect();
     let key = |k: usize| (samples[k].work, samples[k].error);
@@ -164,8 +162,7 @@ pub enum Reach {
         /// Interpolated work.
         work: f64,
     },
-    /// The coarsest level already reaches the error: the coarsest valid level if all reach it,
-    /// otherwise the coarsest of the converging part. Its work is an upper bound.
+    /// The coarsest level already reaches the error, so its work is an upper bound.
     Already {
         /// Work of the coarsest level.
         work: f64,

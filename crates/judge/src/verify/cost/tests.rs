@@ -190,8 +190,7 @@ proptest! {
         prop_assert!(fine.work().is_none() || coarse.work().is_some());
     }
 
-    /// No level dominates a level on the front. Every level that counts is dominated or equalled by
-    /// a level on the front, except for negligible differences of the error.
+    /// No level dominates the front, and the front dominates or equals every level that counts.
     #[test]
     fn pareto_front_dominates_all_other_levels(samples in series()) {
         let front = super::pareto_front(&samples);

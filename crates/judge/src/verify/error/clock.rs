@@ -30,16 +30,14 @@ pub const MOST_STEPS: f64 = 1e9;
 pub const STEP_TOLERANCE: f64 = 0.01;
 
 impl Clock {
-    /// Creates a clock whose number of steps is nearest to `until / wanted`, for the requested step
-    /// `wanted` (s). With fewer steps than `instants`, every step ends at an instant. `None` if a
-    /// time is not positive and finite, or for more than [`MOST_STEPS`] steps.
+    /// Creates a clock whose number of steps is nearest to `until / wanted`. With fewer steps than
+    /// `instants`, every step ends at an instant. `None` for invalid times or too many steps.
     pub fn new(until: f64, wanted: f64, instants: u64) -> Option<Self> {
         let steps = Self::usable(until, wanted, instants, libm::round(until / wanted))?;
         Some(Self { until, steps, instants: instants.min(steps) })
     }
 
-    /// Creates a clock with the largest step, at most `wanted` (s), that divides the time between
-    /// equally spaced instants, which runs then share. `None` as for [`Clock::new`].
+    /// Creates a clock with the largest step, at most `wanted` (s), that divides equal intervals.
     pub fn with_common_instants(until: f64, wanted: f64, instants: u64) -> Option<Self> {
         let between = until / (wanted * instants as f64);
         // A ratio that is an integer up to rounding is rounded to this integer.
@@ -71,8 +69,7 @@ impl Clock {
     }
 }
 
-/// Whether step number `step` of `steps` ends at one of `instants`. Instants are as evenly spaced
-/// as the steps allow; the last one ends the run.
+/// Whether step number `step` of `steps` ends at one of `instants`, which are evenly spaced.
 pub fn is_instant(step: u64, steps: u64, instants: u64) -> bool {
     // Number of instants up to the end of a step. The number grows by one at an instant.
     let passed = |step: u64| u128::from(step) * u128::from(instants) / u128::from(steps);

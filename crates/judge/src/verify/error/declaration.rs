@@ -1,16 +1,13 @@
-//! Declarations of the judged quantities: values at labels (points, identified by their reference
-//! positions), and sums over the body or its walls.
+//! Declarations of the judged quantities: values at labels, and sums over the body or its walls.
 //!
-//! Errors of sums are divided by a number, called size, that is zero only for a body at rest: the
-//! value of an energy, or for a vector the sum of the lengths of the added vectors. All sums have
-//! three components; an energy has only the first.
+//! Errors of sums are divided by a size that is zero only for a body at rest: the value of an
+//! energy, or the sum of the lengths of the added vectors.
 
 use crate::exact::{SumDensity, SumPoint, Truth};
 use mpm_subject::{Samples, Totals};
 use std::borrow::Cow;
 
-/// Function that writes exact values at all labels. Its arguments are the exact solution, the
-/// number of dimensions, labels (m), time (s), and the output.
+/// Writes exact values; the arguments are solution, dimensions, labels (m), time (s) and output.
 pub(super) type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
 
 /// Properties of a judged quantity, except its name.
@@ -27,8 +24,7 @@ pub(super) struct Declaration {
     pub(super) exact_at_all: Option<ExactAtAll>,
     /// Size of the exact values by which errors are divided.
     pub(super) size: SolutionSize,
-    /// Returns the magnitude of the stored numbers whose rounding limits the accuracy of the
-    /// quantity, for a body of the given length (m); NaN if unknown.
+    /// Returns the magnitude of the stored numbers whose rounding limits the accuracy.
     pub(super) rounding_size: fn(f64) -> f64,
     pub(super) is_primary: bool,
     /// Whether the quantity is defined only by some solvers and exact solutions.
@@ -166,8 +162,7 @@ pub(super) const TEMPERATURE: Declaration = Declaration {
 /// Stress tensor (Pa) in space, NaN where a component is unknown.
 type SpaceStress = [[f64; 3]; 3];
 
-/// Completes the stress of a body in `d` dimensions (Pa, row by row). In a plane, the shear stress
-/// out of the plane is zero, and the normal stress out of the plane is `across`.
+/// Completes the stress of a body in `d` dimensions (Pa), with `across` out of the plane.
 fn in_space(d: usize, stress: &[f64], across: Option<f64>) -> SpaceStress {
     let of_plane = across.filter(|_| d == 2).unwrap_or(f64::NAN);
     std::array::from_fn(|i| {
@@ -180,14 +175,12 @@ fn in_space(d: usize, stress: &[f64], across: Option<f64>) -> SpaceStress {
     })
 }
 
-/// Returns the mean stress `p = -tr(sigma)/3` (Pa), positive in compression (Muir Wood 1990, Soil
-/// Behaviour and Critical State Soil Mechanics).
+/// Returns the mean stress `p = -tr(sigma)/3` (Pa), positive in compression (Muir Wood 1990).
 fn mean_stress(s: &SpaceStress) -> f64 {
     -(s[0][0] + s[1][1] + s[2][2]) / 3.0
 }
 
-/// Returns the deviatoric stress `q = sqrt(3/2 s:s)` (Pa) with `s = sigma + p I` (Muir Wood 1990).
-/// It is the magnitude of the axial stress in uniaxial stress.
+/// Returns the deviatoric stress `q = sqrt(3/2 s:s)` (Pa), `s = sigma + p I` (Muir Wood 1990).
 fn deviatoric_stress(s: &SpaceStress) -> f64 {
     let p = mean_stress(s);
     let deviator = |k: usize| s[k / 3][k % 3] + if k.is_multiple_of(4) { p } else { 0.0 };

@@ -15,8 +15,7 @@ pub struct History {
 }
 
 impl History {
-    /// Starts the history of the label of `samples` that is nearest to `wanted`. Of two equally
-    /// near labels the first one is observed. `None` without labels.
+    /// Starts the history of the label nearest to `wanted` (the first of equal ones).
     pub fn start(samples: &Samples, wanted: &[f64]) -> Option<(usize, Self)> {
         let d = samples.dimension;
         let distance = |p: usize| -> f64 {
@@ -84,8 +83,7 @@ fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
     all[first..].iter().copied().zip(weights).collect()
 }
 
-/// Computes the weights of the Lagrange interpolation at `x` by the `count` nearest (or all) of the
-/// ascending coordinates `sorted`. Also returns the index of the first one.
+/// Returns the Lagrange weights at `x` of the `count` nearest of `sorted`, and the first index.
 pub fn lagrange_weights(sorted: &[f64], x: f64, count: usize) -> (usize, Vec<f64>) {
     let count = sorted.len().min(count);
     let above = sorted.partition_point(|c| *c < x);

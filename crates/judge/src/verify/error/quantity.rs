@@ -173,8 +173,7 @@ impl Quantity {
         self.declaration().sum
     }
 
-    /// Returns the magnitude of the stored numbers whose rounding limits the smallest possible
-    /// error, for a body of length `length` (m); NaN if unknown.
+    /// Returns the magnitude of the stored numbers whose rounding limits the error; NaN if unknown.
     pub fn rounding_size(self, length: f64) -> f64 {
         (self.declaration().rounding_size)(length)
     }
@@ -199,10 +198,9 @@ impl Quantity {
         places.all(|(label, into)| (declaration.exact)(truth, label, t, into))
     }
 
-    /// Returns the largest magnitude of the exact values at `places` (m) and `times` (s): the
-    /// length of a vector, or the Frobenius norm of a tensor. F is measured by its difference from
-    /// the identity, and a temperature by its range. NaN if the exact solution does not define the
-    /// quantity, or if the magnitude is zero everywhere.
+    /// Returns the largest magnitude of the exact values at `places` (m) and `times` (s). F is
+    /// measured by its difference from the identity, and a temperature by its range. NaN if the
+    /// quantity is not defined or zero everywhere.
     pub fn largest_exact(self, truth: &dyn Truth, places: &[Vec<f64>], times: &[f64]) -> f64 {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for place in places {
@@ -234,8 +232,7 @@ impl Quantity {
         Some(exact.iter().fold(0.0, |all, x| libm::hypot(all, *x)))
     }
 
-    /// Computes norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the
-    /// solver or the exact solution does not define the quantity.
+    /// Computes norms of `computed - exact` at the labels of `samples`; NaN if undefined.
     pub fn errors(self, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
         self.differences(samples, truth, t).map_or(Norms::NONE, |(components, error)| {
             let norms = Norms::of(&error, components, &samples.weight);
@@ -243,8 +240,7 @@ impl Quantity {
         })
     }
 
-    /// Returns the number of components at each label, and `computed - exact` at the labels of
-    /// `samples` at time `t`. `None` if either does not define the quantity.
+    /// Returns `computed - exact` and its number of components; `None` if either is not defined.
     pub fn differences(
         self,
         samples: &Samples,

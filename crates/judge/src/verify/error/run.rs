@@ -36,12 +36,10 @@ impl Comparison<'_> {
     }
 }
 
-/// Fraction of a run at its end in which a body must be at rest. One instant does not suffice,
-/// because an oscillating body has zero velocity at its turning points.
+/// Fraction of a run at its end in which a body must be at rest: turning points are no rest.
 const LAST: f64 = 0.1;
 
-/// Advances `subject` over all steps of `clock`, and measures its error against `truth` at every
-/// instant. Also records the velocity of the label nearest to the observed point.
+/// Advances `subject` over all steps of `clock`, and measures its error at every instant.
 pub fn run(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -51,8 +49,7 @@ pub fn run(
     RunMonitor::new(subject, truth, comparison).run(subject, clock).0
 }
 
-/// Runs `subject` like [`run`]. Also records the judged quantity, for a comparison in `norm` with
-/// other runs of the same level; the record of a failed run is empty.
+/// Runs `subject` like [`run`], and records the judged quantity; nothing if the run failed.
 pub fn run_recorded(
     subject: &mut dyn Subject,
     truth: &dyn Truth,

@@ -96,8 +96,7 @@ impl Requirement {
         self.error_below.or(self.own_error_below)
     }
 
-    /// Returns the reason why these levels cannot test the requirement; `None` if they can. The
-    /// failure of a level is never such a reason, because the gate rejects failures.
+    /// Returns the reason why these levels cannot test the requirement, for levels without failure.
     pub(crate) fn untestable(&self, levels: &[Level]) -> Option<String> {
         let has_failed =
             levels.iter().any(|level| level.failed.is_some() || !level.error.is_finite());
@@ -119,8 +118,7 @@ impl Requirement {
         Some(format!("{count}, and an order needs {FEWEST_LEVELS}{own}"))
     }
 
-    /// Returns the reason why the errors of `levels` meet the requirement. `judgement` is the
-    /// judgement of the levels, `rounding` the error due to rounding.
+    /// Returns the reason why the errors of `levels` meet the requirement, despite `rounding`.
     ///
     /// # Errors
     /// One line with the requirement and the measured result.

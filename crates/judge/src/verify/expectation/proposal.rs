@@ -159,8 +159,7 @@ fn rounded_up(value: f64) -> f64 {
     format!("{}e{exponent}", digit + 1).parse().unwrap_or(value)
 }
 
-/// Proposes bounds on the conserved sums. A bound on mass alone is attributed to theory, because
-/// particles have constant masses in every method.
+/// Proposes bounds on conserved sums. Only that on mass is due to theory.
 fn drifts(study: &Convergence) -> Vec<ProposedKey> {
     let worst = |sum: Conserved| {
         let drift = |level: &LevelOutcome| level.run.drift.map(|drift| drift.of(sum));

@@ -144,8 +144,7 @@ impl GradientEvidence {
         (!moved.is_empty()).then(|| moved.join(", "))
     }
 
-    /// Whether the derivative with respect to the initial velocity is wrong, and is that of a
-    /// motion without stress, whose functional is proportional to the velocity.
+    /// Whether the derivative with respect to the initial velocity is that of free motion.
     fn is_without_stress(&self) -> bool {
         let velocity = self.entries.iter().find(|entry| entry.parameter == "initial_velocity");
         velocity
@@ -164,8 +163,7 @@ mod tests {
 
     const RIGHT: ValueCheck = ValueCheck { reported: 3.0, computed: 3.0, tolerance: 1e-12 };
 
-    /// Creates reported derivatives with respect to `young`, `density` and `initial_velocity`.
-    /// Their central differences are -3.6, 3.7 and 3.0.
+    /// Creates reported derivatives whose central differences are -3.6, 3.7 and 3.0.
     fn evidence(reported: [f64; 3]) -> GradientEvidence {
         let entry =
             |(parameter, reported, difference)| GradientEntry { parameter, reported, difference };

@@ -21,8 +21,7 @@ pub struct GradientLevel {
     pub h: f64,
     /// Time step (s).
     pub dt: f64,
-    /// Reported derivative with respect to the parameter. If the initial velocity of the suite
-    /// depends on the parameter, this is the total derivative.
+    /// Reported total derivative with respect to the parameter.
     pub gradient: f64,
     /// The exact derivative.
     pub exact: f64,
@@ -64,8 +63,7 @@ impl GradientStudy {
         self.state().0 == GradientState::Wrong
     }
 
-    /// Returns the state of the derivative, and the reason with measured values. The reason names
-    /// the cause of a wrong derivative if runs without derivatives reveal it.
+    /// Returns the state of the derivative, and the reason with values and the cause of an error.
     pub fn state(&self) -> (GradientState, String) {
         let (state, reason) = self.measured_state();
         let evidence = self.evidence.as_ref().filter(|_| state == GradientState::Wrong);

@@ -4,8 +4,7 @@
 /// relative to this change.
 const SMOOTH: f64 = 1e-3;
 
-/// Minimum size of a jump, relative to the change of the function. A jump is the change between
-/// neighbouring points minus the integral of the derivative between them.
+/// Minimum size of a jump between neighbours, relative to the change of the function.
 const JUMP: f64 = 5e-4;
 
 /// Value and derivative of the functional at one value of the parameter.
@@ -31,8 +30,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Integrates the derivative over `points`, sorted by the parameter. `None` if the function
-    /// changes so little that the `rounding` error of a value could count as a jump.
+    /// Integrates the derivative over sorted `points`; `None` if `rounding` could count as a jump.
     pub fn new(points: &[SweepPoint], rounding: f64) -> Option<Self> {
         let (first, last) = (points.first()?, points.last()?);
         let change = last.value - first.value;

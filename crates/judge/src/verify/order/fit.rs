@@ -10,8 +10,7 @@
 //! ```
 //!
 //! If the noise is log-normal, the interval contains the true order with a probability of 95 %
-//! (Draper & Smith, Applied Regression Analysis, 3rd ed., section 1.4). A systematic departure from
-//! the line, such as a drift of the order, also widens the interval.
+//! (Draper & Smith, Applied Regression Analysis, 3rd ed., section 1.4); a drift also widens it.
 
 use super::{t_quantile, variance_ratio};
 use serde::{Deserialize, Serialize};
@@ -88,8 +87,7 @@ impl FittedLine {
         Interval { value: self.slope, low: self.slope - half_width, high: self.slope + half_width }
     }
 
-    /// Computes the drift of the order over the points of this line from a fit of the parabola
-    /// `line + c q(x)`. The function `q` is `x^2` made orthogonal to the line.
+    /// Computes the drift of the order over the points of this line from a fit with a parabola.
     pub(crate) fn drift(&self, points: &[LogPoint]) -> Option<Trend> {
         let parabola: Vec<LogPoint> =
             points.iter().map(|p| LogPoint { y: square(p.x - self.mean_x), ..*p }).collect();

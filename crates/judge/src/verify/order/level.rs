@@ -44,8 +44,7 @@ pub struct Level {
     pub h: f64,
     /// Norm of the error on the level.
     pub error: f64,
-    /// False for a level that is reported but does not count. An example is a level on which
-    /// particles change their cell, if the theory does not cover this.
+    /// False for a level that is reported but does not count, such as one outside the theory.
     pub usable: bool,
     /// Reason for the failure of the run, if it failed.
     pub failed: Option<String>,

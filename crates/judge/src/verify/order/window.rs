@@ -12,8 +12,7 @@
 //! - Levels are dropped at the fine end only if the error stops decreasing (a floor). The verdict
 //!   is then `at floor`.
 //!
-//! Of all such windows the longest is selected; of two equally long ones, the finer. The test is
-//! repeated on the selected window until no shorter one replaces it.
+//! The longest such window is selected, of equal ones the finer, until no shorter one replaces it.
 
 use super::fit::{FittedLine, LogPoint};
 use super::variance_ratio;

@@ -7,8 +7,7 @@ use crate::verify::{AMPLITUDE, SpectrumRow};
 pub struct SpectrumExpectation {
     /// Maximum deviation of the phase error.
     pub phase_within: Option<f64>,
-    /// Maximum deviation of the logarithm of the amplitude per period. Below the strain of the wave
-    /// it is accepted: the closed form assumes particles at rest.
+    /// Maximum deviation of the logarithm of the amplitude per period, for small strains.
     pub damping_within: Option<f64>,
 }
 

@@ -52,8 +52,7 @@ pub struct ObservedWave {
 }
 
 /// Runs `subject` and fits a recurrence to the series of `sum v sin(k X)` over its particles, with
-/// the wave number `k = 2 pi/length` and X from the beginning of the row. The series excludes the
-/// initial state, because this state may not result from a step.
+/// `k = 2 pi/length`. The initial state, which no step may produce, is excluded.
 ///
 /// # Errors
 /// Message that names the failed step.
@@ -81,8 +80,7 @@ mod tests {
     use approx::assert_relative_eq;
     use mpm_subject::{Failure, RunCounters};
 
-    /// Two points a quarter of a wavelength apart. The velocity at the crest follows a recurrence.
-    /// The velocity at the other point has no effect.
+    /// Two points a quarter of a wavelength apart. Only the velocity at the crest has an effect.
     struct Scripted {
         velocity: [f64; 2],
         step: u64,

@@ -8,8 +8,7 @@ use mpm_subject::{Failure, Perturbable};
 use nalgebra::DMatrix;
 use thiserror::Error;
 
-/// Size of a perturbation, relative to the natural size of the entry. The rounding error of F = I
-/// plus the perturbation is then 1e-10 of the perturbation.
+/// Relative size of a perturbation; F = I is rounded to 1e-10 of it.
 const STEP: f64 = 1e-6;
 
 /// Maximum change of a state of rest in a step, relative to the natural sizes.

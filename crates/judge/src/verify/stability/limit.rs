@@ -1,7 +1,6 @@
 //! Finds the smallest value of a parameter that is not stable.
 //!
-//! The range is scanned upwards, because a larger value may be stable again. The first interval
-//! with an unstable upper end is bisected until the bracket is short enough.
+//! The scan goes upwards, because a larger value may be stable again, and is then bisected.
 
 /// Stability limit of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,8 +90,7 @@ mod tests {
         assert!((found - 1.0).abs() <= 1e-3, "{found}");
     }
 
-    /// The intervals of the scan grow by a constant ratio. The limit is the middle of the last
-    /// bracket, whose length is at most the tolerance.
+    /// Intervals grow by a constant ratio. The limit is the middle of the last bracket.
     #[test]
     fn values_are_tried_in_geometric_progression() {
         let mut tried = Vec::new();

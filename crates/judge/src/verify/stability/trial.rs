@@ -10,8 +10,7 @@ use crate::verify::error::norm::largest_length;
 use crate::verify::{Scales, Stability, Trial, larger};
 use mpm_subject::{Failure, Samples, Subject};
 
-/// Number of initial steps that are all checked; later, every [`EVERY`]th step is checked. Fast
-/// growth appears in the first steps, and slow growth needs no frequent checks.
+/// Number of initial steps that are all checked; later, every [`EVERY`]th step is checked.
 const FIRST: u64 = 64;
 const EVERY: u64 = 16;
 
@@ -294,8 +293,7 @@ mod tests {
         assert_eq!(watched(&[3.0, 5.0, 1.0], false).verdict, Stability::Stable);
     }
 
-    /// A body of 2 kg with a momentum of 4 kg m/s has an energy of 4 J. This energy does not belong
-    /// to the motion relative to the centre of mass.
+    /// A body of 2 kg and 4 kg m/s has an energy of 4 J, all of its centre of mass.
     #[test]
     fn a_common_motion_is_left_out_where_it_is_asked() {
         assert_relative_eq!(watched(&[5.0, 9.0], true).energy, 3.0, max_relative = 1e-14);

@@ -39,11 +39,9 @@ pub struct Scales {
     pub stable_below: f64,
     /// Energy, relative to its initial value, above which a run is unstable and ends.
     pub unstable_above: f64,
-    /// Whether the kinetic energy excludes the energy of the centre of mass, because the common
-    /// velocity of a free body says nothing about growth.
+    /// Whether the kinetic energy excludes that of the centre of mass, as for a free body.
     pub centred: bool,
-    /// Whether every check measures the part of the particle velocities that gives no momentum to
-    /// any node (the null space of the map to the grid).
+    /// Whether every check measures velocities without momentum at any node (the null space).
     pub null_space: bool,
 }
 
@@ -70,8 +68,7 @@ pub struct Trial {
     pub least_j: f64,
     /// Largest speed during the run, relative to the wave speed.
     pub speed: f64,
-    /// Kinetic energy at the end in the null space of the map to the grid, relative to the largest
-    /// kinetic energy of the run. NaN if it was not measured.
+    /// Final kinetic energy in the null space, relative to the largest; NaN if not measured.
     pub null_share: f64,
     /// Largest kinetic energy in the null space, relative to the largest kinetic energy of the run.
     pub largest_null_share: f64,

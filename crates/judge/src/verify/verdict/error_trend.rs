@@ -62,10 +62,9 @@ fn line_rises(part: &[LogPoint]) -> bool {
         .is_some_and(|order| order.value < -FLAT_ORDER && order.high < 0.0)
 }
 
-/// Returns the index of the first level of a flat fine end. The flat end is the longest tail with
-/// an order of less than 0.2 whose errors lie in a band of a factor of two. It must follow a
-/// decreasing part or begin at the first level. `None` if even the formal order would change the
-/// error by less than a factor of two over the tail.
+/// Returns the index of the first level of a flat fine end: the longest tail with an order below
+/// 0.2 whose errors lie in a band of a factor of two. `None` without a decreasing part before it,
+/// or if the formal order would change the error by less than a factor of two over the tail.
 pub(crate) fn flat_tail(points: &[LogPoint], formal_order: f64) -> Option<usize> {
     let starts = 0..=points.len().checked_sub(FEWEST_OF_TREND)?;
     starts.into_iter().find(|&start| {

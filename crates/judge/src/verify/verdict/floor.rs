@@ -7,8 +7,7 @@
 use crate::verify::{Axis, format_number};
 use mpm_subject::named;
 
-/// Minimum relative decrease of the error due to half the spacing of an axis that is the cause: it
-/// then causes half of the error if its order is one, and a third if it is two.
+/// Minimum relative decrease of the error due to half the spacing of an axis that is the cause.
 const LEAST_FALL: f64 = 0.25;
 
 named! {

@@ -22,8 +22,7 @@ pub(crate) enum Reason {
     Drift {
         change: f64,
     },
-    /// The order is compared with the expected range. `overlaps` is true if the order is outside
-    /// the range but its interval overlaps the range.
+    /// Compares the order with the expected range; `overlaps` refers to the order's interval.
     Against {
         verdict: Verdict,
         range: (f64, f64),
