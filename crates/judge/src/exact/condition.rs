@@ -6,15 +6,14 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 /// A condition on a face of the body, checked pointwise.
+#[allow(clippy::missing_errors_doc, reason = "the error is the first violation")]
 pub trait Condition: Debug + Send + Sync {
     /// Checks the motion at `point`.
-    ///
-    /// # Errors
-    /// The first violation.
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation>;
 }
 
 /// A point of a face at one time, with the elementary requirements that make up conditions.
+#[allow(clippy::missing_errors_doc, reason = "the error is the first violation")]
 pub trait FacePoint {
     /// Returns the number of space dimensions.
     fn dimension(&self) -> usize;
@@ -29,33 +28,18 @@ pub trait FacePoint {
     fn present_area(&self) -> [f64; 3];
 
     /// Requires `u_i = 0`; `what` describes the face in messages.
-    ///
-    /// # Errors
-    /// The violation.
     fn held(&self, i: usize, what: &str) -> Result<(), Violation>;
 
     /// Requires `(u_t)_i = given` (m/s).
-    ///
-    /// # Errors
-    /// The violation.
     fn velocity(&self, i: usize, given: f64) -> Result<(), Violation>;
 
     /// Requires `(P n)_i = given` (Pa); `what` describes the face in messages.
-    ///
-    /// # Errors
-    /// The violation.
     fn traction(&self, i: usize, what: &str, given: f64) -> Result<(), Violation>;
 
     /// Requires u . n = 0, no tension, and friction: at most `coefficient` times the pressure.
-    ///
-    /// # Errors
-    /// The first violation.
     fn friction(&self, coefficient: f64) -> Result<(), Violation>;
 
     /// Requires x one period further along the axis, and equal grad u, on the opposite face.
-    ///
-    /// # Errors
-    /// The first violation.
     fn continues_on_opposite_face(&self) -> Result<(), Violation>;
 }
 

@@ -105,14 +105,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_box_has_the_product_of_its_axes() {
-        let all = points(&[(0.0, 2.0), (1.0, 2.0)], 2);
-        let moment: f64 = all.iter().map(|(x, weight)| weight * x[0] * x[0] * x[1]).sum();
-        assert_eq!(all.len(), 256);
-        assert_relative_eq!(moment, 8.0 / 3.0 * 1.5, max_relative = 1e-14);
-    }
-
     /// The integral of X^6 Y^2 Z over the box from (0, 0, 0) to (1, 2, 4), and volumes of halves.
     #[test]
     fn cells_have_the_integrals_of_polynomials() {

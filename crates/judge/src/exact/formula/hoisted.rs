@@ -49,9 +49,6 @@ impl<T: Number> Hoisted<T> {
     }
 
     /// Adds a position; the first has index 0.
-    ///
-    /// # Panics
-    /// If the number of `coordinates` is not the number of variables minus one.
     pub fn add(&mut self, coordinates: &[T]) {
         let last = self.variables.len() - 1;
         self.variables[..last].copy_from_slice(coordinates);
@@ -70,9 +67,6 @@ impl<T: Number> Hoisted<T> {
     }
 
     /// Returns the values of the formulas at a position for the current time. Does not allocate.
-    ///
-    /// # Panics
-    /// If `place` is out of range.
     pub fn eval(&mut self, place: usize) -> impl Iterator<Item = T> {
         let (fixed, rest) = (self.split.place.kept, &self.split.rest);
         let kept = &self.kept[place * fixed..][..fixed];

@@ -72,9 +72,6 @@ impl<const N: usize> Hessian<N> for () {
 
 impl<const N: usize> Jet<N> {
     /// Returns the second derivative with respect to the variables `i` and `j`.
-    ///
-    /// # Panics
-    /// If `i` or `j` is not below `N`.
     #[inline]
     pub fn dd(&self, i: usize, j: usize) -> f64 {
         self.hessian[i][j]
@@ -91,9 +88,6 @@ impl<const N: usize> Slope<N> {
 
 impl<const N: usize, H: Hessian<N>> Dual<N, H> {
     /// Creates the variable with this `index` and `value`.
-    ///
-    /// # Panics
-    /// If `index` is not below `N`.
     #[inline]
     pub fn variable(value: f64, index: usize) -> Self {
         let mut variable = Self::from(value);
@@ -114,9 +108,6 @@ impl<const N: usize, H: Hessian<N>> Dual<N, H> {
     }
 
     /// Returns the first derivative with respect to the variable `i`.
-    ///
-    /// # Panics
-    /// If `i` is not below `N`.
     #[inline]
     pub fn d(&self, i: usize) -> f64 {
         self.gradient[i]

@@ -160,9 +160,6 @@ impl NumberBatch {
     }
 
     /// Returns the value of one lane.
-    ///
-    /// # Panics
-    /// If `lane` is not below [`NumberBatch::LEN`].
     #[inline]
     pub fn get(&self, lane: usize) -> f64 {
         self.0[lane]

@@ -116,15 +116,14 @@ impl Truth for Conduction {
 }
 
 /// A thermal condition on one face of the body, checked pointwise.
+#[allow(clippy::missing_errors_doc, reason = "the error is the first violation")]
 pub trait ThermalCondition: Debug + Send + Sync {
     /// Checks the temperature at `point`.
-    ///
-    /// # Errors
-    /// The first violation.
     fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation>;
 }
 
 /// A point of a face at one time, with the elementary requirements on the temperature.
+#[allow(clippy::missing_errors_doc, reason = "the error is the first violation")]
 pub trait HeatFacePoint {
     /// Evaluates a formula of the coordinates and t at this point and time.
     fn value(&self, formula: &Formula) -> f64;
@@ -136,21 +135,12 @@ pub trait HeatFacePoint {
     fn largest_temperature(&self) -> f64;
 
     /// Requires `T = given` (K).
-    ///
-    /// # Errors
-    /// The violation.
     fn has_temperature(&self, given: f64) -> Result<(), Violation>;
 
     /// Requires the heat inflow `given` (W/m^(D-1), reference area); `size` scales its terms.
-    ///
-    /// # Errors
-    /// The violation.
     fn lets_in(&self, what: &str, given: f64, size: f64) -> Result<(), Violation>;
 
     /// Requires that temperature and heat flux equal those on the opposite face.
-    ///
-    /// # Errors
-    /// The first violation.
     fn continues_on_opposite_face(&self) -> Result<(), Violation>;
 }
 

@@ -263,11 +263,3 @@ fn domains_have_the_shape_of_the_piece() {
     assert_relative_eq!(4.0 * (xx * yy - xy * yx), 0.5, max_relative = 1e-12);
     assert!((xx - yy).abs() < 1e-12 && (xy - yx).abs() < 1e-12 && xy < -0.05 * xx, "{xx} {xy}");
 }
-
-/// The volume per unit of the coordinates is linear on a chart, so its mean is that at the centre.
-#[rstest]
-fn charts_have_the_area_of_the_body(#[values(TRIANGLE, ANGLE, COMB)] corners: &[[f64; 2]]) {
-    let body = polygon(corners);
-    let area: f64 = (0..body.charts().len()).map(|chart| body.place(chart, &[0.5; 2]).1).sum();
-    assert_relative_eq!(area, by_sides(corners)[0], max_relative = 1e-12);
-}

@@ -45,7 +45,7 @@ pub(super) struct SumDeclaration {
     pub(super) needs: SumNeed,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(super) enum ComputedSum {
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
     /// A function of the second moments (kg m2) per axis, in the current and in the reference body.
