@@ -1,11 +1,10 @@
 //! First-order correction of a linearised motion: the linear response to the residual of the law.
 //!
 //! A linearised motion u leaves the residual force `r = Div P(u) + rho0 b - rho0 u_tt`, and
-//! residual tractions on faces. The true motion is u + d. To first order it has
-//! `rho0 d_tt = M d_XX + r` with the wave modulus M, d = 0 on held faces, and the residual traction
-//! on other faces. The motion must vary along one axis only, and d is computed along this axis. For
-//! a body at rest, d follows by integration. For a moving body, d is computed with linear elements,
-//! a lumped mass matrix and central differences in time.
+//! residual tractions. The true motion is u + d, to first order with `rho0 d_tt = M d_XX + r`, d =
+//! 0 on held faces, and the residual traction on other faces. The motion must vary along one axis
+//! only. At rest, d follows by integration, else by linear elements, a lumped mass matrix and
+//! central differences.
 
 use super::check::event::Event;
 use super::condition::{Face, FacePoint};

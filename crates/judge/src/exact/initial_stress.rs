@@ -1,11 +1,10 @@
 //! Initial stress in the reference configuration.
 //!
-//! For a finite-strain law, the initial stress is a second Piola-Kirchhoff stress S0, with
-//! `P = P_law(F) + F S0`. P is then the derivative of the energy `W_law(F) + S0 : E`,
-//! `E = (F^T F - I)/2`, which is invariant under rotation (Merodio, Ogden & Rodriguez 2013, Int. J.
-//! Non-Linear Mech. 56). Small waves along S0 satisfy `rho0 c^2 = M + S0`. For a small-strain law,
-//! `P = C : eps + S0`, which neglects `grad u S0` compared with `C : eps`. S0 must therefore be
-//! much smaller than the moduli, just as strains must be much smaller than 1.
+//! For a finite-strain law, the initial stress is a second Piola-Kirchhoff stress S0, `P = P_law(F)
+//! + F S0`, the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2` (Merodio, Ogden &
+//! Rodriguez 2013, Int. J. Non-Linear Mech. 56). Small waves along S0 satisfy `rho0 c^2 = M + S0`.
+//! For a small-strain law, `P = C : eps + S0` neglects `grad u S0`, so S0 must be much smaller than
+//! the moduli.
 //!
 //! For a law with a yield surface, S0 is the stress of an elastic initial strain, and is not added.
 
@@ -20,8 +19,7 @@ pub struct InitialStress {
 }
 
 impl InitialStress {
-    /// Creates a field from its components: row, column and formula of the coordinates. Each
-    /// component is given on one side of the diagonal only.
+    /// Creates a field from row, column and formula of components on one side of the diagonal.
     pub fn new(components: Vec<(usize, usize, Formula)>) -> Self {
         Self { components }
     }

@@ -317,8 +317,7 @@ mod tests {
         assert_relative_eq!(of(&problem), 2.0 * of(&whole), max_relative = 1e-12);
     }
 
-    /// A round body of density 2 that rotates about its centre at the origin has the angular
-    /// momentum `w I`.
+    /// A round body of density 2 that rotates about the origin has the angular momentum `w I`.
     #[rstest]
     #[case::disk(2, 0.0, PI / 2.0)]
     #[case::annulus(2, 0.5, PI / 2.0 * (1.0 - 0.0625))]

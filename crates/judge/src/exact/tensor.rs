@@ -112,11 +112,10 @@ pub(super) fn product<T: Number, const D: usize>(
 
 /// Computes the logarithmic strain `eps = ln(b)/2`, `b = F F^T`.
 ///
-/// The strain follows from `tanh(eps) = X = (b - I)(b + I)^-1` by the series of the inverse
-/// function, `X + X^3/3 + X^5/5 + ...` (Higham 2008, *Functions of Matrices*, section 11.4). This
-/// avoids eigenvalues, which are not differentiable where they coincide. The result is NaN if
-/// [`MOST_TERMS`] terms do not suffice. If all off-diagonal components of F and their derivatives
-/// are zero, `eps_ii = ln F_ii` is used because it is faster.
+/// The strain follows from `tanh(eps) = X = (b - I)(b + I)^-1` by the series `X + X^3/3 + X^5/5 +
+/// ...` (Higham 2008, *Functions of Matrices*, section 11.4), which is differentiable where
+/// eigenvalues coincide. NaN if [`MOST_TERMS`] terms do not suffice. If all off-diagonal components
+/// of F and their derivatives are zero, `eps_ii = ln F_ii` is faster.
 pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) {
         return tensor(|i, j| if i == j { Number::ln(f[i][i]) } else { T::from(0.0) });
@@ -141,10 +140,9 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
     tensor(|_, _| T::from(f64::NAN))
 }
 
-/// Computes the rotation R of the polar decomposition `F = R U` by Newton's iteration
-/// `R <- (R + R^-T)/2`, starting at F (Higham 2008, *Functions of Matrices*, section 8.3). R is the
-/// identity if all off-diagonal components of F and their derivatives are zero and the diagonal is
-/// positive. The result is NaN if [`MOST_TERMS`] iterations do not suffice.
+/// Computes the rotation R of the polar decomposition `F = R U` by Newton's iteration `R <- (R +
+/// R^-T)/2`, starting at F (Higham 2008, *Functions of Matrices*, section 8.3). R = I if F and its
+/// derivatives are diagonal and F is positive. NaN if [`MOST_TERMS`] iterations do not suffice.
 pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) && (0..D).all(|i| f[i][i].value() > 0.0) {
         return tensor(unit);

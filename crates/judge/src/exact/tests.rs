@@ -231,8 +231,7 @@ fn the_force_of_a_run_is_the_force(
     }
 }
 
-/// The second of two runs reuses the values of the first, and computes values for its own positions
-/// and times.
+/// The second run reuses values of the first, and computes them for its own positions.
 #[rstest]
 fn shared_values_are_bit_identical(#[values(1, 2, 3)] dimension: usize) {
     let alone = held(dimension);

@@ -24,8 +24,7 @@ pub struct CaseJudgement {
     pub study: Convergence,
 }
 
-/// Judges a case from the `runs` of its levels. `reruns` runs levels again to find the cause of an
-/// error floor, or with shorter time steps for `run --gate`.
+/// Judges a case from the `runs` of its levels. `reruns` runs levels again to find a cause.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
     runs: Vec<LevelRun>,

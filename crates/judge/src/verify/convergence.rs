@@ -11,8 +11,7 @@ use std::ops::Deref;
 pub struct StudySettings {
     /// Axis of refinement.
     pub axis: Axis,
-    /// Theoretical order of the method on a smooth solution. For particles per cell there is no
-    /// general order; the order of the midpoint rule is used.
+    /// Theoretical order of the method; for particles per cell, that of the midpoint rule.
     pub formal_order: f64,
     /// Norm of the judged error.
     pub norm: NormName,
@@ -137,8 +136,7 @@ impl Convergence {
         u.is_finite().then_some(*u)
     }
 
-    /// Whether the interval of the observed limit contains the exact displacement; `None` without
-    /// an estimate or an exact solution.
+    /// Whether the interval of the observed limit contains the exact displacement, if both exist.
     pub fn limit_is_covered(&self) -> Option<bool> {
         let estimate = self.observed_limit?.ok()?;
         self.observed_exact().map(|exact| estimate.covers(exact))

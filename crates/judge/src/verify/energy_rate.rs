@@ -1,14 +1,12 @@
 //! Growth or decay rate of the energy over a long run, with a confidence interval.
 //!
-//! The energy of an oscillating body oscillates too, so neighbouring instants are not independent
-//! observations, and a line fitted to all of them would have too narrow an interval. The run is
-//! therefore divided into ten parts of equal length, and a line is fitted to the means of ln E over
-//! each part (the method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section
-//! 9.5.3). The slope is the rate, d ln E/dt (1/s), with an interval from Student's t.
+//! The energy of an oscillating body oscillates too, so neighbouring instants are not independent.
+//! The run is therefore divided into ten equal parts, and a line is fitted to the means of ln E
+//! over each part (the method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed.,
+//! section 9.5.3). The slope is the rate, d ln E/dt (1/s), with an interval from Student's t.
 //!
-//! The interval contains the rate with a probability of 95 % under two conditions: the parts are
-//! much longer than a period, and the deviations of the means from the line are independent noise.
-//! A non-linear drift counts as noise and widens the interval.
+//! The interval contains the rate with a probability of 95 % if the parts are much longer than a
+//! period and the means deviate independently. A non-linear drift counts as noise.
 
 use super::order::fit::{FittedLine, Interval, LogPoint};
 use mpm_subject::Totals;

@@ -36,9 +36,8 @@ pub fn single_precision_spacing(largest: f64) -> Option<f64> {
 /// Returns the bound (m) on the accumulated rounding of positions to multiples of `spacing` (m).
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
-/// `spacing/sqrt 12`. In the worst case all rounding errors are equal. This is possible because
-/// increments change little from step to step. The sum of N rounding errors is then
-/// `N spacing/sqrt 12` in the RMS norm, and `N spacing/2` in the maximum norm.
+/// `spacing/sqrt 12`. In the worst case all rounding errors are equal, and the sum of N is `N
+/// spacing/sqrt 12` in the RMS norm, and `N spacing/2` in the maximum norm.
 pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
     let most = steps as f64 * spacing;
     match norm {
@@ -87,8 +86,7 @@ pub(super) fn with_exclusions(
     Judgement { reason: parts.join("; "), ..judgement }
 }
 
-/// Describes the excluded levels, such as
-/// `down to rounding: from 128 cells on the error lies below the rounding bound of 1.2e-6 m`.
+/// Describes the excluded levels, such as `down to rounding: from 128 cells on ...`.
 fn rounding_remark(levels: &[LevelOutcome], judgement: &Judgement, axis: Axis) -> Option<String> {
     let all = excluded(levels, Exclusion::Rounding);
     let (first, last) = (all.first()?, all.last()?);

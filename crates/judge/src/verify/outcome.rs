@@ -42,8 +42,7 @@ impl SuiteOutcome {
         self.cases.iter().all(CaseOutcome::passed)
     }
 
-    /// Returns the results of one kind of study with the names of their cases. `of` is an accessor,
-    /// such as [`CaseOutcome::stability`].
+    /// Returns the results of one kind of study, accessed by `of`, with the names of their cases.
     pub fn results<'a, R: 'a>(
         &'a self,
         of: fn(&'a CaseOutcome) -> Option<&'a R>,

@@ -29,8 +29,7 @@ impl Event {
         Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
     }
 
-    /// Compares values like [`judge`](Self::judge), with a `condition` that the violation reports
-    /// as violated.
+    /// Compares values like [`judge`](Self::judge), and reports the violated `condition`.
     pub(crate) fn judge_condition(
         &self,
         allowed: f64,

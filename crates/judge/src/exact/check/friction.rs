@@ -45,8 +45,7 @@ pub(crate) struct InterfaceTraction {
     pub(crate) coefficient: f64,
 }
 
-/// Checks Coulomb's law on a surface whose normal is along `axis`, up to tolerances for stress (Pa)
-/// and velocity (m/s).
+/// Checks Coulomb's law on a surface with the normal `axis`, up to tolerances (Pa and m/s).
 pub(crate) fn coulomb(
     event: &Event,
     axis: usize,

@@ -202,8 +202,7 @@ mod tests {
         assert_outcome(meets_alone(&one, &other, friction), violated);
     }
 
-    /// The plates are compressed by a strain of 1/100. If they slide, friction with mu = 0.3 causes
-    /// a shear strain of 3/500.
+    /// The plates have a strain of 1/100; friction with mu = 0.3 causes a shear strain of 3/500.
     #[rstest]
     #[case::together(["t/10", "t/10"], "")]
     #[case::past_each_other(["X*3/500", "t/10 + X*3/500"], "")]

@@ -72,9 +72,8 @@ fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion:
 /// allows this error, because the terms of Div P may cancel everywhere, as in Lame's tube at rest.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Checks `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation. If the
-/// problem prescribes a body force, the equation is solved for b, and the result is compared with
-/// the prescribed force. Returns the largest residual, relative to the largest sum of the terms.
+/// Checks `rho0 u_tt = Div P + rho0 b`. If the problem prescribes b, the equation is solved for b.
+/// Returns the largest residual, relative to the largest sum of the terms.
 pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let (size, mut left) = (survey.largest.terms, 0.0);
     let rounding = ROUNDING * problem.modulus() * survey.largest.curvature;

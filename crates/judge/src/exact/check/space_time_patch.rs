@@ -23,8 +23,7 @@ impl SpaceTimePatch {
         self.centre.len() - 1
     }
 
-    /// Creates a random patch in a box. The time interval is a part of the run from 0 to `until`
-    /// (s), at most `longest` (s) long.
+    /// Creates a random patch in a box and in at most `longest` (s) of the run until `until` (s).
     pub(crate) fn in_box(
         random: &mut Random,
         from: &[f64],

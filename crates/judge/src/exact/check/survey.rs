@@ -14,8 +14,7 @@ const ROUNDS: usize = 8;
 
 const ADDED: usize = 16;
 
-/// Minimum share of the evenly distributed events at which a resolved quantity has at least half of
-/// its maximum.
+/// Minimum share of the even events at which a resolved quantity has half of its maximum.
 const RESOLVED: f64 = 1.0 / 16.0;
 
 /// Maximum relative distance of an added event in the first round. Each round halves it.
@@ -142,8 +141,7 @@ impl Survey {
         Self { points, largest, face_events }
     }
 
-    /// Evaluates the motions of all bodies of a scene. The bodies share their largest magnitudes
-    /// and the number of events on faces.
+    /// Evaluates the motions of all bodies of a scene, which share their largest magnitudes.
     pub fn of_each(problems: &[Problem]) -> Vec<Self> {
         let mut all: Vec<Self> = problems.iter().map(Self::new).collect();
         let none = Magnitudes::default();

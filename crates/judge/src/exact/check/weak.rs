@@ -1,10 +1,9 @@
 //! Checks the equation of motion in weak form on random space-time patches.
 //!
-//! Waves behind a sudden load have kinks, where `u_X` jumps. The pointwise equation holds on both
-//! sides for any speed of the front, and only the weak form constrains this speed. For any smooth
-//! `phi` that vanishes on the boundary of a patch,
-//! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`. For a body of revolution, dX
-//! is replaced by `R dX`, and `P_tT phi` is subtracted in the radial component.
+//! Waves behind a sudden load have kinks, where `u_X` jumps; only the weak form constrains the
+//! speed of the front. For any smooth `phi` that vanishes on the boundary of a patch, `int int
+//! (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`. For a body of revolution, dX is
+//! replaced by `R dX`, and `P_tT phi` is subtracted in the radial component.
 //!
 //! The motion is evaluated once for points that differ only along axes without variation.
 
@@ -77,9 +76,8 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
     Ok(())
 }
 
-/// Compares gain and loss over a patch by the midpoint rule. An imbalance counts only if it hardly
-/// changes with twice and four times as many points per axis. If it changes, the check is repeated
-/// on the half patch around the largest term.
+/// Compares gain and loss over a patch by the midpoint rule. If the imbalance changes with twice
+/// and four times the points, the check is repeated on the half patch around the largest term.
 ///
 /// `condition` is the beginning of a message and ends with the name of the equation.
 pub(crate) fn balances<const N: usize>(

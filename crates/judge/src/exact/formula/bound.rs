@@ -11,8 +11,7 @@ use super::scope::Scope;
 
 /// Number of stack registers for short formulas, which are cleared faster than [`MANY`].
 const FEW: usize = 8;
-/// Number of stack registers for longer formulas. Formulas with more registers allocate them on the
-/// heap.
+/// Number of stack registers; formulas with more registers allocate them on the heap.
 const MANY: usize = 32;
 
 /// A formula with resolved names, ready for evaluation.

@@ -55,8 +55,7 @@ impl FormulaForce {
     }
 
     /// Computes an upper bound on the largest eigenvalue (1/s2) of the symmetric part of -db/du,
-    /// over all positions at t = 0, from Gershgorin circles. `u` returns the displacement (m) of
-    /// the position with a given index.
+    /// over all positions at t = 0, from Gershgorin circles.
     pub fn stiffness(&self, u: &dyn Fn(usize) -> [f64; 3]) -> f64 {
         if !depends_on_displacement(&self.formulas) {
             return 0.0;

@@ -3,8 +3,7 @@
 //! The steps of a program are split by their dependence: on position, on time, or on both.
 //!
 //! Sums are unrolled and registers are renamed, so each step is a node that is computed once
-//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on what its
-//! arguments depend on. The operations that lead to a number, and its bits, do not change.
+//! (static single assignment). The operations that lead to a number, and its bits, do not change.
 
 use super::bound::Formula;
 use super::builtin::Binary;

@@ -224,8 +224,7 @@ impl Div for NumberBatch {
 }
 
 impl Number for NumberBatch {
-    /// Returns the value of the first lane. Formulas branch only on the index of a sum, which is
-    /// equal in all lanes.
+    /// Returns the value of the first lane: formulas branch only on indices of sums.
     #[inline]
     fn value(&self) -> f64 {
         self.0[0]

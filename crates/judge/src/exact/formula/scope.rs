@@ -51,8 +51,7 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares `name` as the free variable, which functions and definitions may also use. Formulas
-    /// are then bound with `name` among their variables.
+    /// Declares `name` as the free variable, which functions and definitions may use.
     ///
     /// # Errors
     /// When `name` is invalid or taken.
@@ -62,8 +61,7 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares a name for an expression of constants, functions, other definitions and the free
-    /// variable.
+    /// Declares a name for an expression, which may contain other definitions.
     ///
     /// # Errors
     /// When `name` is invalid or taken.
@@ -111,9 +109,8 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares a table: `name` is a piecewise linear function of the argument `by`, which is a
-    /// constant or a variable. Each of `rows` contains a value of `by` and the function value, in
-    /// ascending order of `by`. The function is constant before the first and after the last row.
+    /// Declares the piecewise linear function `name` of `by`, a constant or a variable, through
+    /// `rows` (argument and value, ascending). It is constant before and after the rows.
     ///
     /// # Errors
     /// When `name` or `by` is invalid, or when `name` is taken.

@@ -145,8 +145,7 @@ impl CamClayLaw {
         [pressure, self.compression * pressure + hardening * growth, eta]
     }
 
-    /// Computes `ln(p/p_y)` and the ratio at the compaction `beyond` after yield; NaN if the clay
-    /// softens.
+    /// Computes `ln(p/p_y)` and the ratio at the compaction `beyond` yield; NaN if it softens.
     fn flowed(&self, beyond: f64) -> [f64; 2] {
         let start = self.ratio_at_yield();
         if !(start < self.slope) {

@@ -14,8 +14,7 @@ pub(super) trait ConstitutiveLaw {
     /// Whether the stress depends on the history of the motion if the loading is not monotonic.
     const HAS_HISTORY: bool = false;
 
-    /// Computes P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law depends
-    /// on the density, this is P for unit reference density.
+    /// Computes P (Pa) for `grad[i][j] = du_i/dX_j`, at unit density if the law depends on it.
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D>;
 
     /// Computes the energy W (J/m3) with `P = dW/dF`. The energy is zero at rest or, for a gas, in
@@ -25,8 +24,7 @@ pub(super) trait ConstitutiveLaw {
         None
     }
 
-    /// Returns the scale of stress per strain (Pa): the largest modulus at rest, `lambda + 2 mu`
-    /// for a solid.
+    /// Returns the scale of stress per strain (Pa), the largest modulus at rest.
     fn modulus(&self) -> f64;
 
     /// Returns the ratio of P, energy and modulus at `density` (kg/m3) to those at unit density.

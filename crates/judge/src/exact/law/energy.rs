@@ -38,8 +38,7 @@ fn stress_is_the_derivative_of_the_energy(
         let expected = -pressure * unit::<f64>(i, j);
         assert_abs_diff_eq!(initial[i][j], expected, epsilon = 1e-14 * law.modulus());
     }
-    // The energy equals the work of the mean stress, even for strains so small that differences of
-    // numbers near 1 would lose digits.
+    // The energy equals the work of the mean stress, even for very small strains.
     let small = [[2e-7, -1e-7, 5e-8], [3e-7, -2e-7, 1e-7], [0.0, 1.5e-7, 1e-7]];
     let stress = law.piola(&small);
     let mean = stress.iter().flatten().zip(initial.iter().flatten()).map(|(p, p0)| 0.5 * (p + p0));

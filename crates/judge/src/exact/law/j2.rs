@@ -2,8 +2,7 @@
 //!
 //! While the logarithmic strain `eps` grows along one direction, the stress is a function of it
 //! (Hencky 1924): `tau = K tr(eps) I + s dev(eps)`, with `s = 2 mu` up to `q = sqrt(3/2) |2 mu
-//! dev(eps)| = Y`. After yield, s satisfies `q = Y + H alpha` and `3 mu alpha = q_elastic - q`. The
-//! law is used in uniaxial strain; `monotone_loading` checks that the loading never reverses.
+//! dev(eps)| = Y`, and `q = Y + H alpha` and `3 mu alpha = q_elastic - q` after yield.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use super::uniaxial_flow::{UniaxialLaw, UniaxialYield};
@@ -19,8 +18,7 @@ pub struct J2Law {
 }
 
 impl J2Law {
-    /// Creates the law from Young's modulus (Pa), Poisson's ratio, the yield stress in tension (Pa)
-    /// and the hardening modulus (Pa).
+    /// Creates the law from Young's modulus, Poisson's ratio, yield stress and hardening modulus.
     pub fn new(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
         Self { lame: Lame::new(young, poisson), yield_stress, hardening }
     }
@@ -99,8 +97,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// In uniaxial strain eps, the elastic q is 2 mu |eps|. After yield, `tau = K eps -+ 2/3 q`
-    /// with `q = Y + H alpha` and `alpha = (2 mu |eps| - Y)/(3 mu + H)`.
+    /// `tau = K eps -+ 2/3 (Y + H alpha)` with `alpha = (2 mu |eps| - Y)/(3 mu + H)`.
     #[rstest]
     fn beyond_yield_the_stress_is_that_of_the_hardened_yield_stress(
         #[values(-0.2, -0.02, -0.001, 0.001, 0.02, 0.2)] strain: f64,

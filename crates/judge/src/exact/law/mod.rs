@@ -1,5 +1,4 @@
-//! Constitutive laws of exact solutions, independent of the solvers. Each has a file and a line of
-//! `laws!`.
+//! Constitutive laws of exact solutions. Each has a file and a line of `laws!`.
 
 mod contract;
 #[cfg(test)]

@@ -50,9 +50,8 @@ impl ConstitutiveLaw for NeoHookeanLaw {
         self.0.modulus()
     }
 
-    /// Solves `lambda (ln J + eps) + mu (exp(2 eps) - 1) = 0` by Newton's method, where J is the
-    /// in-plane value and `eps = ln F_33`. The left side is convex, so the iterates decrease
-    /// monotonically to the root until rounding stops them. Two more steps give the derivatives.
+    /// Solves `lambda (ln J + eps) + mu (exp(2 eps) - 1) = 0` by Newton's method for the in-plane
+    /// J. The iterates decrease to the root `eps = ln F_33`. Two more steps give the derivatives.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let log = Number::ln(area(grad));
         let mut eps = -self.0.thinning() * log.value();

@@ -32,8 +32,7 @@ macro_rules! laws {
             /// Names of all laws in suites.
             pub const NAMES: &[&'static str] = &[$($law::NAME,)+];
 
-            /// Returns the equation for a material, from the material's name and its parameters by
-            /// key; `None` if there is no law for the material.
+            /// Returns the equation for the name and parameters of a material, if there is a law.
             pub fn of_material(
                 material: &str,
                 parameter: impl Fn(&str) -> Option<f64>,
@@ -64,8 +63,7 @@ macro_rules! laws {
                 }
             }
 
-            /// Computes P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`, at unit
-            /// reference density if the law depends on it, see [`Equation::density_factor`].
+            /// Computes P (Pa) for `grad[i][j] = du_i/dX_j`, see [`Equation::density_factor`].
             pub fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
                 match self {
                     $(Self::$law(law) => law.piola(grad),)+
@@ -79,16 +77,14 @@ macro_rules! laws {
                 }
             }
 
-            /// Returns the scale of stress per strain (Pa): the largest modulus at rest, for unit
-            /// reference density like P.
+            /// Returns the scale of stress per strain (Pa) at rest, for unit density like P.
             pub fn modulus(&self) -> f64 {
                 match self {
                     $(Self::$law(law) => law.modulus(),)+
                 }
             }
 
-            /// Returns the ratio of P, energy and modulus at the reference density `density`
-            /// (kg/m3) to those at unit density; 1 if the law does not depend on the density.
+            /// Returns the ratio of P, energy and modulus at `density` (kg/m3) to unit density.
             pub fn density_factor<T: Number>(&self, density: T) -> T {
                 match self {
                     $(Self::$law(law) => law.density_factor(density),)+
@@ -123,8 +119,7 @@ macro_rules! laws {
                 }
             }
 
-            /// Checks that the law is valid for motions in `dimension` dimensions, or for a body
-            /// `at_rest`.
+            /// Checks that the law is valid in `dimension` dimensions, or for a body `at_rest`.
             ///
             /// # Errors
             /// The reason why the law is not valid, and an alternative for the suite.

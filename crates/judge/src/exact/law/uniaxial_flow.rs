@@ -1,10 +1,9 @@
 //! Plastic flow in uniaxial strain under monotonic loading.
 //!
-//! The elasticity is linear in the logarithmic strain `e` of the driven axis, and the hardening
-//! too. The lateral stresses are equal, so the state is a point in the plane of axial and lateral
-//! Kirchhoff stress, in which a yield surface of planes or a cone is two straight lines. The
-//! stresses are then piecewise linear in `e`: elastic up to the first line, then along this line,
-//! and constant at an apex, where all principal stresses are equal.
+//! The elasticity and the hardening are linear in the logarithmic strain `e` of the driven axis.
+//! The lateral stresses are equal, so a yield surface of planes or a cone is two straight lines in
+//! the plane of axial and lateral Kirchhoff stress. The stresses are piecewise linear in `e`:
+//! elastic up to the first line, then along this line, and constant at an apex.
 //!
 //! A body with an initial stress starts at this stress instead of zero.
 //!
@@ -111,8 +110,7 @@ impl UniaxialLaw {
         reached.min_by(|(_, a), (_, b)| a.value().total_cmp(&b.value()))
     }
 
-    /// Computes the axial and the lateral Kirchhoff stress (Pa) at the `strain`, from the stresses
-    /// `start` (Pa).
+    /// Computes the axial and lateral Kirchhoff stress (Pa) at the `strain`, from `start` (Pa).
     fn kirchhoff<T: Number>(&self, strain: T, start: [T; 2]) -> [T; 2] {
         let sign = if strain.value() < 0.0 { -1.0 } else { 1.0 };
         let (size, rates) = (T::from(sign) * strain, self.rates(sign));

@@ -39,10 +39,9 @@ impl Piece {
 
     /// Returns the domain of the particle: the half-lengths (m), row by row, of a parallelogram
     /// with the volume of the piece, and with mean products of coordinates proportional to those of
-    /// the piece. The columns of the domain are the columns of the symmetric root `(Q + s I)/t`,
-    /// where Q is three times the matrix of mean products, `s = sqrt(det Q)` and
-    /// `t = sqrt(tr Q + 2 s)` (Higham 2008, *Functions of Matrices*, problem 6.2). For an
-    /// axis-aligned rectangle, the result is the rectangle itself.
+    /// the piece. Its columns are those of the symmetric root `(Q + s I)/t`, where Q is three times
+    /// the matrix of mean products, `s = sqrt(det Q)` and `t = sqrt(tr Q + 2 s)` (Higham 2008,
+    /// *Functions of Matrices*, problem 6.2).
     pub fn domain(&self) -> [f64; 4] {
         let [xx, xy, yy] = self.spread.map(|product| 3.0 * product);
         let root = (xx * yy - xy * xy).sqrt();

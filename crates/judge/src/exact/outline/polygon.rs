@@ -121,9 +121,8 @@ impl Outline for Polygon {
         if self.holds(label) { 0.0 } else { self.depth(&[label[0], label[1]]) }
     }
 
-    /// Returns the exact intersection of cell and body, with a particle at its centroid. Sums of V
-    /// f(X) approximate integrals of f to second order in the spacing, also at the rim. If the
-    /// centroid is outside the body, as in a notch, each convex piece becomes a particle.
+    /// Returns the exact intersection of cell and body, with a particle at its centroid, or one for
+    /// each convex piece if the centroid is outside. Sums are of second order in the spacing.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
         let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
         let is_near = |corners: &&TriangleCorners| {

@@ -10,8 +10,7 @@ use std::f64::consts::{PI, TAU};
 /// Number of points on each circle of a trace.
 const TRACE: usize = 48;
 
-/// The points whose distance from a centre is between `inner` and `outer` (m). For a disk and a
-/// ball, `inner` is zero.
+/// The points at a distance between `inner` (0 for a disk and a ball) and `outer` (m) of a centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Round {
     /// Centre (m), with two or three coordinates.

@@ -85,9 +85,8 @@ impl End {
 }
 
 impl ConvergingPart {
-    /// Returns the converging part of levels that are sorted from coarse to fine. If there are
-    /// several such parts, the one with the largest decrease of the error is returned. Without a
-    /// converging part, `levels` is empty and `end` has the reason.
+    /// Returns the converging part of sorted levels, with the largest decrease of the error if
+    /// there are several. Without one, `levels` is empty and `end` has the reason.
     pub fn of(samples: &[Sample]) -> Self {
         let mut best: Option<(f64, Range<usize>)> = None;
         let mut start = 0;

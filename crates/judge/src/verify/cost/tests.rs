@@ -171,8 +171,7 @@ fn series() -> impl Strategy<Value = Vec<Sample>> {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
 
-    /// An error is reached only if a level that counts has at most this error. The interpolated
-    /// work is between the work of two levels.
+    /// The work for a reached error lies between the work of two levels.
     #[test]
     fn nothing_is_extrapolated(samples in series(), target in 1e-9..1.0_f64) {
         if let Some(work) = reach(&samples, target).work() {

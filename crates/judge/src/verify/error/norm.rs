@@ -199,8 +199,7 @@ pub struct ErrorScale {
     /// Divisor that turns an error into a fraction of the solution: the largest exact magnitude, or
     /// NaN if there is none; 1 if the suite gives a scale, which is already applied.
     pub size: f64,
-    /// Exponent g in work ~ spacing^-g: the number of refined axes of the body, plus the exponent
-    /// of the number of steps.
+    /// Exponent g in work ~ spacing^-g: the refined axes plus the exponent of the steps.
     pub growth: f64,
 }
 

@@ -9,8 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct History {
     /// Reference position (m) of the observed label, the one nearest to the requested point.
     pub label: Vec<f64>,
-    /// Time (s), and the first component of the computed and of the exact velocity (m/s), at t = 0
-    /// and at each instant.
+    /// Time (s), and the first component of the computed and the exact velocity (m/s).
     pub velocity: Vec<[f64; 3]>,
 }
 
@@ -35,8 +34,7 @@ impl History {
         self.velocity.push([t, samples.velocity[at * samples.dimension], exact[0]]);
     }
 
-    /// Returns the RMS of the velocity error over time, relative to the largest exact speed; `None`
-    /// if the exact velocity is always zero.
+    /// Returns the RMS of the velocity error over time, relative to the largest exact speed.
     pub fn relative_error(&self) -> Option<f64> {
         let square: f64 = self.velocity.iter().map(|[_, v, e]| (v - e) * (v - e)).sum();
         let largest = self.velocity.iter().map(|[_, _, e]| e.abs()).fold(0.0, f64::max);
@@ -46,9 +44,8 @@ impl History {
 
 const NEAR: usize = 4;
 
-/// Interpolates the displacement at a fixed point of a body whose labels form a lattice, by cubic
-/// Lagrange interpolation of the four labels around it on each axis, or of all if there are fewer.
-/// This compares the same point on every level. `None` if the labels do not form a lattice.
+/// Interpolates the displacement at a fixed point of a lattice of labels, by cubic Lagrange
+/// interpolation of up to four labels around it on each axis. `None` without a lattice.
 pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
     let d = samples.dimension;
     if d == 0 || place.len() != d || samples.is_empty() {

@@ -238,9 +238,8 @@ pub struct RunResult {
     pub observed_error: Option<f64>,
     /// Exact displacement (m) of the observed point at the end.
     pub observed_exact: Option<Vec<f64>>,
-    /// Largest speed near the end, divided by
-    /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest); `None` if the latter is not
-    /// set.
+    /// Largest final speed divided by [`Comparison::at_rest`](crate::verify::Comparison::at_rest),
+    /// if set.
     pub residual_speed: Option<f64>,
 }
 

@@ -2,8 +2,7 @@
 //!
 //! Solvers that add in no fixed order, for instance with atomic additions on a GPU, give different
 //! bits in each run. The spread of a level is the largest norm of the differences between two of
-//! its runs at each label. A difference of norms would not suffice, because errors with equal norms
-//! can differ at every label.
+//! its runs at each label: errors with equal norms can differ at every label.
 
 use crate::exact::Truth;
 use crate::verify::{NormName, Norms, Quantity, RunErrors};

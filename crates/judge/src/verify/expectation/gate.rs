@@ -1,10 +1,9 @@
 //! Requirements of `run --gate` on external solvers.
 //!
-//! The expectations of a suite bound the order of its own methods on both sides, because a high
-//! order shows a defect of the suite. The order of an external solver has a lower bound only: it
-//! may be superconvergent at its sample points. The 95 % interval must reach this bound and exclude
-//! orders lower by 0.5, the typical effect of a defect. It may extend below the bound, because with
-//! few levels it extends 0.1 or more to each side even for a correct solver.
+//! The expectations of a suite bound the order of its own methods on both sides. The order of an
+//! external solver has a lower bound only, because it may be superconvergent at its sample points.
+//! The 95 % interval must reach this bound and exclude orders lower by 0.5, the typical effect of a
+//! defect. It may extend below the bound, as it does with few levels for a correct solver.
 
 use crate::verify::{
     Axis, FEWEST_LEVELS, Interval, Judgement, Level, OrderHypothesis, Unmet, UnmetCode, Verdict,
@@ -172,8 +171,7 @@ impl Requirement {
         Err(Unmet::new(code, unmet))
     }
 
-    /// Whether the errors of levels decrease from level to level, in total with about the lowest
-    /// accepted order.
+    /// Whether errors decrease from level to level, in total with about the lowest accepted order.
     fn falls(&self, levels: &[&Level]) -> bool {
         let (Some(lowest), [first, .., last]) = (self.lowest_low(), levels) else {
             return levels.len() == 1;
@@ -199,8 +197,7 @@ impl Requirement {
         OrderHypothesis::formal(self.order.unwrap_or(2.0)).over(axis)
     }
 
-    /// Whether the 95 % interval of the order reaches the lowest accepted order, and excludes
-    /// orders that are lower by 0.5 or by half.
+    /// Whether the 95 % interval reaches the lowest accepted order, and excludes lower ones by 0.5.
     fn has_order(&self, judgement: &Judgement) -> bool {
         use Verdict::{Converging, PreAsymptotic, TooGood, TooLow};
         let (Some(lowest), Some(order)) = (self.lowest(), judgement.order) else { return false };

@@ -50,8 +50,7 @@ pub struct CaseFindings {
 }
 
 impl Expectation {
-    /// Creates the expectation of convergence with order `p`, within
-    /// [`OrderHypothesis::TOLERANCE`].
+    /// Expects convergence with order `p`, within [`OrderHypothesis::TOLERANCE`].
     pub fn of_order(p: f64, because: &str) -> Self {
         let around = (p - OrderHypothesis::TOLERANCE, p + OrderHypothesis::TOLERANCE);
         Self {

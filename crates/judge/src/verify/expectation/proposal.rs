@@ -1,8 +1,7 @@
 //! Proposes expectations for a suite without expectations, based on runs of the suite.
 //!
 //! If the observed order agrees with the formal one, the formal order is proposed. Other values are
-//! taken from the run and are marked accordingly. A range is proposed only if the observed
-//! order lies inside the range, at a distance of at least twice its uncertainty from either bound.
+//! taken from the run. The uncertainty must be at most half the distance from either bound.
 
 use super::advice::{advice, is_inside, range};
 use crate::verify::figure::counted;

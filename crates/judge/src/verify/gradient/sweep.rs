@@ -1,7 +1,6 @@
 //! Checks a derivative over an interval of the parameter.
 
-/// Maximum difference between the integral of the derivative and the change of the function,
-/// relative to this change.
+/// Maximum relative difference between the integral of the derivative and the function's change.
 const SMOOTH: f64 = 1e-3;
 
 /// Minimum size of a jump between neighbours, relative to the change of the function.

@@ -135,10 +135,9 @@ impl Taylor {
         (GradientState::Wrong, "the Taylor remainder does not have order 2".to_owned())
     }
 
-    /// Whether the derivative differs significantly from the most accurate central difference. The
-    /// uncertainty of a central difference is its rounding error plus its change from the next
-    /// larger perturbation. This check detects small relative errors of the derivative. The
-    /// remainder does not show such errors, because its order is still 2 for large perturbations.
+    /// Whether the derivative differs significantly from the most accurate central difference,
+    /// whose uncertainty is its rounding error plus its change from the next larger perturbation.
+    /// The remainder does not show small relative errors, because its order is still 2.
     fn is_off(&self) -> bool {
         let all: Vec<(f64, f64)> =
             self.perturbed.iter().map(|p| p.by.abs()).zip(self.differences()).collect();

@@ -10,10 +10,8 @@
 //! ```
 //!
 //! `docs/estimate.md` gives the reasons for the terms, their sources (Roache 1994, 1998; Eca &
-//! Hoekstra 2014, J. Comput. Phys. 262, 104) and the measured coverage of the interval. Eca &
-//! Hoekstra also widen their estimate by a fit through all levels, which is not needed here: the
-//! second triple shows whether four values contradict a model with three unknowns. Series that Eca
-//! & Hoekstra classify as oscillating or divergent give no estimate here.
+//! Hoekstra 2014, J. Comput. Phys. 262, 104) and the measured coverage of the interval. Series that
+//! Eca & Hoekstra classify as oscillating or divergent give no estimate here.
 
 use crate::verify::{Interval, Richardson};
 use serde::Serialize;

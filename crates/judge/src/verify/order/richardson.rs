@@ -12,10 +12,8 @@
 //!
 //! Three values always fit, so they give no interval; an interval requires a fourth value
 //! (`limit_estimate`). The grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache
-//! 1994) is not offered, because it contains the true error of only 73 of 100 series of the suites
-//! with exact solutions. The "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is not offered
-//! either. With the order fitted to the same three values, this ratio is identically `u1 / u2`,
-//! which is close to 1 even if the values do not converge.
+//! 1994) is not offered, because it contains the true error of only 73 of 100 series of the suites.
+//! The "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is identically `u1 / u2`.
 
 use crate::exact::bisection::bisect;
 

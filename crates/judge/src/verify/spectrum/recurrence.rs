@@ -1,9 +1,8 @@
 //! Computes the trace and determinant of a linear step from a series of its states.
 //!
-//! On the grid, the state of a Fourier mode of a linear scheme consists of two numbers. A step
-//! multiplies this vector by a 2 x 2 matrix. By the Cayley-Hamilton theorem each linear functional
-//! of the state satisfies `y(k+2) = tr y(k+1) - det y(k)`. Particle velocities also have a constant
-//! part that the grid does not resolve, so the fit includes a constant.
+//! On the grid, the state of a Fourier mode of a linear scheme consists of two numbers, and a step
+//! multiplies it by a 2 x 2 matrix. By the Cayley-Hamilton theorem each linear functional satisfies
+//! `y(k+2) = tr y(k+1) - det y(k)`, here plus a constant that the grid does not resolve.
 
 use std::f64::consts::TAU;
 
@@ -21,10 +20,9 @@ pub struct Recurrence {
 impl Recurrence {
     /// Fits the recurrence by least squares. All results are NaN for short or constant series.
     ///
-    /// The unknowns are `det` and `1 - tr + det`. They are the coefficients of the increment
-    /// `d = y(k+1) - y(k)` and of `a = y(k+1)` in `y(k+2) - y(k+1) = det d - (1 - tr + det) a`.
-    /// These columns are nearly orthogonal for an oscillation, so the normal equations are
-    /// accurate. Subtracting the means eliminates the constant.
+    /// The unknowns are `det` and `1 - tr + det`, the coefficients of `d = y(k+1) - y(k)` and `a =
+    /// y(k+1)` in `y(k+2) - y(k+1) = det d - (1 - tr + det) a`. These columns are nearly orthogonal
+    /// for an oscillation. Subtracting the means eliminates the constant.
     pub fn fit(series: &[f64]) -> Self {
         if series.len() < FEWEST {
             return Self { determinant: f64::NAN, deficit: f64::NAN };
@@ -73,8 +71,7 @@ impl Recurrence {
         2.0 * self.deficit * (1.0 + self.determinant) - self.deficit * self.deficit - lost * lost
     }
 
-    /// Returns the argument of the complex eigenvalues (rad), which is the phase angle per step;
-    /// `None` if the eigenvalues are real or NaN.
+    /// Returns the phase angle per step, if the eigenvalues are complex.
     pub fn angle(&self) -> Option<f64> {
         let discriminant = self.discriminant();
         (discriminant > 0.0).then(|| libm::atan2(discriminant.sqrt(), self.trace()))
@@ -95,8 +92,7 @@ impl Recurrence {
         Some(self.angle()? / (TAU / cells * courant) - 1.0)
     }
 
-    /// Returns the logarithm of the amplitude factor over one exact period of a wave whose length
-    /// is `cells` cells.
+    /// Returns the logarithm of the amplitude factor over one exact period of a wave.
     pub fn log_kept_per_period(&self, cells: f64, courant: f64) -> f64 {
         self.log_modulus() * cells / courant
     }

@@ -28,9 +28,8 @@ pub struct MeasuredWave {
     pub determinant: f64,
 }
 
-/// Returns the number of steps of a run over [`PERIODS`] exact periods of a wave of `cells` cells,
-/// or until the predicted amplitude is a millionth. `log_kept` is the predicted logarithm of the
-/// amplitude factor of a step, if known.
+/// Returns the number of steps over [`PERIODS`] exact periods of a wave of `cells` cells, or until
+/// the amplitude, predicted by the factor `log_kept` per step, is a millionth.
 pub fn steps_of_run(cells: f64, courant: f64, log_kept: Option<f64>) -> u64 {
     let whole = libm::ceil(PERIODS * cells / courant);
     let damped = log_kept.filter(|log_kept| *log_kept < 0.0);

@@ -1,8 +1,7 @@
 //! The amplification matrix of a step of a solver whose particles keep their position on the grid.
 //!
-//! Near rest, `s(n+1) = A s(n)` for small perturbations. Column j of A is the result of a run with
-//! entry j perturbed. Central differences eliminate quadratic terms (volume times stress). Entries
-//! are scaled by their natural sizes, which does not change eigenvalues.
+//! Near rest, `s(n+1) = A s(n)`. Column j of A is the result of runs with entry j perturbed:
+//! central differences eliminate quadratic terms. Natural sizes do not change eigenvalues.
 
 use mpm_subject::{Failure, Perturbable};
 use nalgebra::DMatrix;
@@ -28,10 +27,9 @@ pub enum AmplificationError {
     Failed(Failure),
 }
 
-/// Computes the amplification matrix of one step, or of several consecutive ones of lengths `dt`
-/// (s). `subject` must be at rest, with particles that do not move relative to the grid. `speed`
-/// (m/s) and `modulus` (Pa) are natural sizes. An entry that is constant and affects no other, such
-/// as the volume of a particle without stress, has no row; its eigenvalue is one.
+/// Computes the amplification matrix of consecutive steps of lengths `dt` (s). `subject` must be at
+/// rest, with particles that do not move relative to the grid. `speed` (m/s) and `modulus` (Pa) are
+/// natural sizes. A constant entry that affects no other has no row; its eigenvalue is one.
 ///
 /// # Errors
 /// If the body is not at rest, or if a step fails.
@@ -128,8 +126,7 @@ mod tests {
         amplification(&mut Linear { state: vec![0.0; 3], third }, &[1.0], 10.0, 40.0)
     }
 
-    /// Relative to their natural sizes, one unit of b equals four units of a. An entry that affects
-    /// only itself has no row.
+    /// One unit of b equals four of a. An entry that affects only itself has no row.
     #[test]
     fn amplification_matrix_of_a_linear_step_is_exact() {
         let found = matrix(|c| c).unwrap();

@@ -24,10 +24,9 @@ pub struct Radius {
 }
 
 /// Computes the spectral radius from the real Schur form of `A + s I` with s = |A|. Without this
-/// shift the QR algorithm does not converge for many amplification matrices: `nalgebra` compares an
-/// entry with its diagonal neighbours, and filters (PIC, MUSL) have multiple zero eigenvalues with
-/// too few eigenvectors, and rounding errors on the diagonal. If the algorithm does not converge
-/// even with the shift, the radius is computed from Gelfand's formula, `|A^k|^(1/k)` with k = 2^30.
+/// shift the QR algorithm does not converge for many amplification matrices: filters (PIC, MUSL)
+/// have multiple zero eigenvalues with too few eigenvectors. If it does not converge even with the
+/// shift, the radius is computed from Gelfand's formula, `|A^k|^(1/k)` with k = 2^30.
 pub fn spectral_radius(matrix: &DMatrix<f64>) -> Radius {
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return Radius { radius: f64::INFINITY, eigenvalue: None };

@@ -1,9 +1,8 @@
 //! Runs a solver and observes whether the energy grows.
 //!
 //! The energy is the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is the stiffness against
-//! uniaxial strain. The second term is the strain energy in 1-D at small strain; otherwise it only
-//! measures the size of the stress, which is sufficient to detect growth. The energy is divided by
-//! its initial value, or by the energy of a unit strain if the body starts at rest.
+//! uniaxial strain: the strain energy in 1-D at small strain, otherwise only the size of the
+//! stress. It is divided by its initial value, or by that of a unit strain for a body at rest.
 
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
 use crate::verify::error::norm::largest_length;
@@ -107,8 +106,7 @@ impl TrialMonitor {
         }
     }
 
-    /// Creates the result of a run that exceeded the energy bound. An energy that is not finite is
-    /// a failure, not growth.
+    /// Creates the result of a run beyond the energy bound; infinite or NaN energy is a failure.
     fn grown(self, subject: &dyn Subject, step: u64) -> Trial {
         let t = self.time;
         if !self.last.is_finite() {
@@ -366,8 +364,7 @@ mod tests {
         assert!(checkerboard(&row(&[])).is_nan());
     }
 
-    /// The third particle has no neighbours, and counts neither in the differences nor in the mean
-    /// size.
+    /// The third particle has no neighbours, and does not count.
     #[test]
     fn checkerboard_ignores_particles_without_neighbours() {
         let apart = Samples { label: vec![0.0, 1.0, 9.0], ..row(&[1.0, 3.0, 2.0]) };

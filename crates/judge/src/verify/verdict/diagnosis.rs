@@ -157,8 +157,7 @@ impl Diagnosis {
         self.findings.iter().find(|finding| finding.kind == kind)
     }
 
-    /// Returns the causes, starting with the most likely one. If a run restores the theoretical
-    /// order, the exact solution is not a cause.
+    /// Returns the causes, most likely first; no exact solution if a run restores the order.
     pub fn causes(&self) -> Vec<Cause<'_>> {
         use KnownCauseKind::{CoarseLevels, NotSmooth};
         if self.is_known() {
@@ -169,8 +168,7 @@ impl Diagnosis {
         let coarse = self.finding(CoarseLevels);
         let mut causes: Vec<_> = coarse.map(Cause::Known).into_iter().collect();
         if let Some((run, evidence)) = restored {
-            // A run with finer cells reveals no other cause, because finer cells have the same
-            // effect as omitting coarse levels.
+            // Finer cells reveal no other cause: they have the effect of omitting coarse levels.
             let is_nearer = coarse
                 .is_none_or(|coarse| !run.is_finer && self.off(run.order) < self.off(coarse.order));
             causes.insert(if is_nearer { 0 } else { causes.len() }, Cause::Run(run, evidence));
@@ -193,9 +191,8 @@ impl Diagnosis {
         order.map_or(f64::INFINITY, |order| (order.value - self.formal_order).abs())
     }
 
-    /// Returns the run that reveals the cause, and the effect of its change: the restored order
-    /// nearest to theory or, without one, the largest increase to a settled order or, without one,
-    /// the largest decrease of the error. The first of equal runs is returned.
+    /// Returns the (first) run that reveals the cause, and the effect of its change: a restored
+    /// order (nearest to theory), a settled order (largest increase), or a decrease of the error.
     pub fn found(&self) -> Option<(&ChangedRun, Evidence)> {
         let least = self.formal_order - OrderHypothesis::TOLERANCE;
         let is_near = self.finest.verdict == Verdict::Converging;

@@ -1,8 +1,7 @@
 //! Determines the cause of an error floor by refining another axis.
 //!
-//! The series shows that the error has stopped decreasing, but not why. The finest level is
-//! repeated with half the spacing of one other axis at a time, which does not change the error
-//! terms of other spacings (Roy 2005, J. Comput. Phys. 205, 131).
+//! The finest level is repeated with half the spacing of one other axis at a time, which does not
+//! change the error terms of other spacings (Roy 2005, J. Comput. Phys. 205, 131).
 
 use crate::verify::{Axis, format_number};
 use mpm_subject::named;

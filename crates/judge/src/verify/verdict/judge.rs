@@ -170,8 +170,7 @@ impl JudgedSeries {
         Some(self.before_floor(self.points[start].level, start, hypothesis))
     }
 
-    /// Creates the judgement of a floor that begins at the level `from`. The order is fitted to the
-    /// asymptotic part of the points before `end`.
+    /// Creates the judgement of a floor from level `from`; the order excludes points from `end` on.
     fn before_floor(&self, from: usize, end: usize, hypothesis: &OrderHypothesis) -> Finding {
         let window = window::asymptotic(&self.points, end, hypothesis.formal_order);
         self.floor(from, window.map_or(0..end, |window| window.range))
