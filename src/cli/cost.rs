@@ -10,7 +10,7 @@ use mpm_verify::external::{SolverFactory, SolverProgram};
 use mpm_verify::report;
 use mpm_verify::study::cost::{TimedPart, price};
 use mpm_verify::suite::{Extent, Suite};
-use mpm_verify::verify::TimedSuite;
+use mpm_verify::verify::{TimedSuite, by_transfers};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -115,7 +115,7 @@ fn draw(folder: &Path, timed: &TimedSuite) -> Result<(), CommandError> {
     let seconds = "seconds of the steps, one thread";
     let transfers = "particle-node transfers";
     let mut figures = report::cost_figures(outcome, &timed.by_seconds(), seconds, "seconds");
-    let counted = timed.by_transfers();
+    let counted = by_transfers(&timed.outcome.cases);
     figures.extend(report::cost_figures(outcome, &counted, transfers, "transfers"));
     for figure in figures {
         for (file, text) in

@@ -6,7 +6,7 @@
 use super::prose::wrapped_row;
 use super::table::Table;
 use crate::report::columns::{cost as columns, short, timed_level};
-use crate::verify::{Machine, Ranking, Reach, TimedSuite};
+use crate::verify::{Machine, Ranking, Reach, TimedSuite, by_transfers};
 
 const TRANSFERS: &str = "particle-node transfers";
 
@@ -50,7 +50,7 @@ pub fn timed(timed: &TimedSuite, is_verbose: bool) -> String {
     if is_verbose {
         text += &format!("\n{}", lines(&levels(timed)));
     }
-    let (by_seconds, by_transfers) = (timed.by_seconds(), timed.by_transfers());
+    let (by_seconds, by_transfers) = (timed.by_seconds(), by_transfers(&timed.outcome.cases));
     for (seconds, transfers) in by_seconds.iter().zip(&by_transfers) {
         text += &format!("\n{}", cost(seconds, "seconds"));
         // External solvers do not count transfers.

@@ -15,16 +15,13 @@ use super::violation::Violation;
 use mpm_subject::PlaneState;
 use std::cell::Cell;
 
-/// Maximum number of residual evaluations.
 const EVALUATIONS: f64 = 2e5;
 
-/// Minimum and maximum number of elements.
 const ELEMENTS: (f64, f64) = (32.0, 256.0);
 
 /// Time step, relative to the time in which a wave crosses one element.
 const COURANT: f64 = 0.9;
 
-/// Requirement of a condition on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Demand {
     /// The displacement or the velocity is prescribed.

@@ -196,7 +196,6 @@ impl Truth for Motion {
         into.copy_from_slice(&self.derivatives(label, t).velocity[..self.dimension()]);
     }
 
-    /// Writes `F = I + grad u`.
     fn deformation_gradient(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         let mut f = self.derivatives(label, t).grad;
         (0..3).for_each(|i| f[i][i] += 1.0);

@@ -206,14 +206,12 @@ impl Problem {
         }
     }
 
-    /// Returns the thermal stretch at one point and time; `None` without thermal expansion.
     pub(super) fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
         let heat = self.heat.as_ref()?;
         let expansion = self.terms.iter().find_map(|term| term.expansion())?;
         Some(expansion.swelling(&heat.temperature.derivatives(label, t)))
     }
 
-    /// Computes P (Pa), where `now` contains the motion's derivatives.
     pub(super) fn piola(&self, label: &[f64], t: f64, now: &Derivatives) -> Tensor<f64> {
         if self.starts_strained() {
             return self.piola_from(&now.grad, &self.initial_stress.at(label));
@@ -234,7 +232,6 @@ impl Problem {
         tensor(|i, j| piola[i][j] + initial[i][j])
     }
 
-    /// Computes the Cauchy stress (Pa) of this body at `label` for the displacement gradient.
     pub(super) fn cauchy(&self, label: &[f64], grad: &Tensor<f64>) -> Tensor<f64> {
         if self.starts_strained() {
             return pushed_forward(&self.piola_from(grad, &self.initial_stress.at(label)), grad);
@@ -248,7 +245,6 @@ impl Problem {
         tensor(|i, j| sigma[i][j] + initial[i][j])
     }
 
-    /// Computes Div P (N/m3), where `now` contains the motion's derivatives.
     pub(super) fn divergence(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         let Derivatives { grad, second, .. } = now;
         if self.starts_strained() {

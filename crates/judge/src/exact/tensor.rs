@@ -31,7 +31,6 @@ pub(super) fn vector<T: Number, const D: usize>(component: impl Fn(usize) -> T) 
     vector
 }
 
-/// Extends a vector by zeros to three dimensions.
 #[inline]
 pub(super) fn in_space<const D: usize>(inside: [f64; D]) -> [f64; 3] {
     vector(|i| if i < D { inside[i] } else { 0.0 })
@@ -46,7 +45,6 @@ pub(super) fn sum<T: Number, const D: usize>(term: impl Fn(usize) -> T) -> T {
     sum
 }
 
-/// Returns 1 on the diagonal, 0 elsewhere.
 #[inline]
 pub(super) fn unit<T: Number>(i: usize, j: usize) -> T {
     T::from(f64::from(u8::from(i == j)))
@@ -90,7 +88,6 @@ pub(super) fn pushed_forward(piola: &Tensor<f64>, grad: &Tensor<f64>) -> Tensor<
     tensor(|i, j| (0..3).map(|k| piola[i][k] * f[j][k]).sum::<f64>() / det)
 }
 
-/// Computes det F in a plane from the displacement gradient.
 pub(super) fn area<T: Number>(grad: &Tensor<T, 2>) -> T {
     let f: Tensor<T, 2> = tensor(|i, j| grad[i][j] + unit(i, j));
     f[0][0] * f[1][1] - f[0][1] * f[1][0]

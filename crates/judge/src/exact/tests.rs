@@ -79,7 +79,6 @@ impl Term for LocallyDamped {
     }
 }
 
-/// A condition given by its requirements at a point.
 pub(super) struct Demands(Box<Requirement>);
 
 type Requirement = dyn Fn(&dyn FacePoint) -> Result<(), Violation> + Send + Sync;

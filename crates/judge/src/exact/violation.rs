@@ -44,7 +44,6 @@ impl LargestViolation {
 }
 
 impl Violation {
-    /// Returns the difference divided by the allowed difference.
     fn excess(&self) -> f64 {
         self.accepted_by(1.0).unwrap_or(0.0)
     }

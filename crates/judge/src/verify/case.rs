@@ -114,7 +114,6 @@ fn rounding_without_order<R: Reruns>(
     is_met.then(|| rounding_remark(bound, all, all))
 }
 
-/// Returns the remarks on a case that meets its requirement.
 fn remarks(
     plan: &JudgePlan<'_>,
     gate: &GateResult,
@@ -134,7 +133,6 @@ fn remarks(
 }
 
 impl JudgePlan<'_> {
-    /// Returns the verdict and its reason for a case without expectations.
     fn explore(&self, judgement: &Judgement, measured: &Measured) -> (String, String) {
         let drift = self.sums.iter().map(|sum| (*sum, f64::INFINITY)).collect();
         let drifts = Limits { drift, ..Limits::default() }.found(measured);

@@ -21,7 +21,6 @@ mod outcome;
 mod rerun;
 mod spectrum;
 mod stability;
-mod study_results;
 pub mod verdict;
 
 pub use case::{CaseJudgement, judge_case};
@@ -48,10 +47,9 @@ pub use order::level::{Axis, Level, observed_order};
 pub use order::limit_estimate::{LimitEstimate, SeriesPoint, estimate_limit};
 pub use order::richardson::Richardson;
 pub use order::window::FEWEST_LEVELS;
-pub use outcome::{CaseOutcome, CaseResult, SuiteOutcome};
+pub use outcome::{CaseOutcome, CaseResult, StudyResults, SuiteOutcome};
 pub use spectrum::SpectrumStudy;
 pub use stability::{Stability, StabilityExpectation, StabilityStudy, amplification};
-pub use study_results::StudyResults;
 pub use verdict::diagnosis::Diagnosis;
 pub use verdict::judge::{Judgement, judge};
 pub use verdict::name::{UnknownVerdict, Verdict};
@@ -86,7 +84,7 @@ pub use self::{
     order::format_number::{format_number, rounded, tuple},
     order::limit_estimate::{EstimateRefusal, LEVELS_OF_ESTIMATE},
     order::t_quantile::two_sided_95,
-    outcome::Exemption,
+    outcome::{Exemption, ForceRow, InternalForce},
     rerun::{Reruns, RoundingSizes},
     spectrum::{
         AMPLITUDE, MeasuredWave, ObservedWave, PERIODS, Recurrence, SpectrumExpectation,
@@ -96,7 +94,6 @@ pub use self::{
         AmplificationError, Critical, FigureBounds, Prediction, Radius, Scales, StabilityLimit,
         StabilityRow, Trial, is_looked_at, spectral_radius, stability_limit, trial,
     },
-    study_results::{ForceRow, InternalForce},
     verdict::diagnosis::{Cause, ChangedRun, Evidence, KnownCause, KnownCauseKind},
     verdict::floor::{Floor, FloorCause, Probe},
 };

@@ -54,7 +54,6 @@ const ROUNDINGS: f64 = 8.0;
 /// Maximum fraction of the judged quantity that is attributed to rounding.
 const MOST_ROUNDING: f64 = 0.01;
 
-/// Maximum number of times that the time step is halved.
 const HALVINGS: i32 = 3;
 
 /// Minimum relative decrease of the error on the finest level after the time step is halved.

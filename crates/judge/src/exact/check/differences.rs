@@ -9,7 +9,6 @@ use crate::exact::violation::Violation;
 /// Maximum relative difference between automatic and finite differences (accurate to 1e-6).
 pub(crate) const DIFFERENCE_TOLERANCE: f64 = 1e-4;
 
-/// Number of positions at which derivatives are compared.
 const PLACES: usize = 32;
 
 /// Maximum difference step, relative to the size of the body or the duration of the run.

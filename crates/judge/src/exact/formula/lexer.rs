@@ -3,9 +3,7 @@
 use std::ops::Range;
 use thiserror::Error;
 
-/// Maximum length of a formula (bytes).
 const MAX_BYTES: usize = 16 * 1024;
-/// Maximum number of tokens in a formula.
 const MAX_TOKENS: usize = 4096;
 const SYMBOLS: &[u8] = b"+-*/^(),";
 

@@ -6,7 +6,6 @@ use super::builtin::{Binary, Builtin, PI};
 use super::lexer::{FormulaError, Lexeme, Token, tokens};
 use std::ops::Range;
 
-/// Maximum nesting depth of parentheses, arguments, signs and right operands.
 const MAX_DEPTH: usize = 128;
 /// Binding power of the unary minus: above `*`, below `^`.
 const MINUS: u8 = 5;

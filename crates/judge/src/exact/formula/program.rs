@@ -13,7 +13,6 @@ pub(super) enum Operand {
     Register(usize),
 }
 
-/// One step; its result goes to register `to`.
 #[derive(Debug, Clone)]
 pub(super) struct Instruction {
     pub(super) action: Action,

@@ -109,7 +109,6 @@ fn lambert_curvature(w: f64) -> f64 {
     -square(lambert_slope(w)) * (2.0 + w) / (1.0 + w)
 }
 
-/// Returns the sign of `x`: -1, 0 or 1; NaN for NaN.
 fn sign(x: f64) -> f64 {
     if x == 0.0 || x.is_nan() { x } else { x.signum() }
 }

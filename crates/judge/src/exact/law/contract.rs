@@ -67,7 +67,6 @@ pub(super) trait ConstitutiveLaw {
     }
 }
 
-/// Lame's parameters (Pa).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Lame {
     pub(crate) lambda: f64,
@@ -80,7 +79,6 @@ impl Lame {
         Self { lambda, mu: young / (2.0 * (1.0 + poisson)) }
     }
 
-    /// Returns `lambda + 2 mu` (Pa).
     pub(super) fn modulus(&self) -> f64 {
         self.lambda + 2.0 * self.mu
     }

@@ -9,7 +9,6 @@ use crate::exact::tensor::{Tensor, tensor, unit};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use rstest::rstest;
 
-/// Asserts `P = dW/dF`, and `W = 0` and `P = 0` at rest.
 pub(super) fn assert_stress_is_derivative(law: impl ConstitutiveLaw + Copy) {
     stress_is_the_derivative_of_the_energy(law, 0.0, 0.0);
 }

@@ -29,7 +29,6 @@ impl ConstitutiveLaw for LinearFluidLaw {
         tensor(|i, j| tension * cofactor[i][j])
     }
 
-    /// Computes `W = K/2 (J - 1)^2`.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let dilation = dilation(grad);
         Some(0.5 * self.bulk * dilation * dilation)

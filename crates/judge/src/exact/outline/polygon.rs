@@ -221,7 +221,6 @@ fn inside(corners: &TriangleCorners, from: &[f64], to: &[f64]) -> Vec<Point> {
     })
 }
 
-/// Area, first and second moments of convex polygons.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct AreaMoments {
     pub(super) area: f64,
@@ -232,7 +231,6 @@ pub(super) struct AreaMoments {
 }
 
 impl AreaMoments {
-    /// Computes the moments relative to `origin`.
     pub(super) fn from_pieces(pieces: &[Vec<Point>], origin: &Point) -> Self {
         let mut all = Self::default();
         for corners in pieces {

@@ -7,7 +7,6 @@ use crate::exact::gauss::points;
 use crate::exact::random::Random;
 use std::f64::consts::{PI, TAU};
 
-/// Number of points on each circle of a trace.
 const TRACE: usize = 48;
 
 /// The points at a distance between `inner` (0 for a disk and a ball) and `outer` (m) of a centre.

@@ -9,7 +9,6 @@
 use super::sample::{ConvergingPart, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
 
-/// Minimum number of points for an interval.
 const FEWEST: usize = 3;
 
 /// Minimum relative half-width of an interval, for series without noise.

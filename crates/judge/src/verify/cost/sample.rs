@@ -29,7 +29,6 @@ impl Sample {
         self.usable && !self.failed && sound && self.work > 0.0 && self.work.is_finite()
     }
 
-    /// Whether the level can be plotted on logarithmic axes.
     pub(crate) fn has_logarithm(&self) -> bool {
         self.counts() && self.error > 0.0 && self.spacing > 0.0 && self.spacing.is_finite()
     }

@@ -1,6 +1,6 @@
 //! Measured seconds: their spread, the machine, and a suite with timed levels.
 
-use crate::verify::{Ranking, SuiteOutcome, by_transfers, rankings};
+use crate::verify::{Ranking, SuiteOutcome, rankings};
 
 /// Work of a run, by kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,11 +79,6 @@ impl TimedSuite {
         rankings(&self.outcome.cases, |case, level, _| {
             self.timing(&case.case, level).map_or(f64::NAN, |timing| timing.median)
         })
-    }
-
-    /// Ranks the cases by transfers.
-    pub fn by_transfers(&self) -> Vec<Ranking> {
-        by_transfers(&self.outcome.cases)
     }
 
     /// Returns the measured time (s) of level number `level` of a case.

@@ -45,6 +45,12 @@ pub(crate) struct UnmetFigure {
     pub(crate) measured: bool,
 }
 
+impl UnmetFigure {
+    pub(crate) fn new(code: UnmetCode, text: String, measured: bool) -> Self {
+        Self { unmet: Unmet::new(code, text), measured }
+    }
+}
+
 struct Check {
     figure: CaseFigure,
     limit: f64,
@@ -93,15 +99,12 @@ impl Limits {
 
     pub(crate) fn unmet(&self, measured: &Measured) -> Vec<UnmetFigure> {
         let broken = self.checks(Some(measured)).into_iter().filter(|check| !check.holds());
-        let mut unmet: Vec<UnmetFigure> = broken
-            .map(|check| UnmetFigure {
-                unmet: Unmet::new(
-                    UnmetCode::BoundExceeded,
-                    format!("expected {}, got {}", check.bound(), check.got()),
-                ),
-                measured: check.got.is_some_and(|got| !got.is_nan()),
-            })
-            .collect();
+        let told = |check: Check| {
+            let line = format!("expected {}, got {}", check.bound(), check.got());
+            let measured = check.got.is_some_and(|got| !got.is_nan());
+            UnmetFigure::new(UnmetCode::BoundExceeded, line, measured)
+        };
+        let mut unmet: Vec<UnmetFigure> = broken.map(told).collect();
         for (sum, limit) in &self.drift {
             let drift = measured.drift.map(|drift| drift.of(*sum));
             if !drift.is_some_and(|drift| drift <= *limit) {
@@ -111,7 +114,7 @@ impl Limits {
                     rounded(*limit, DIGITS)
                 );
                 let measured = drift.is_some_and(|drift| !drift.is_nan());
-                unmet.push(UnmetFigure { unmet: not_conserved(line), measured });
+                unmet.push(UnmetFigure::new(UnmetCode::NotConserved, line, measured));
             }
         }
         if let Some((low, high)) = self.energy_rate {
@@ -120,7 +123,7 @@ impl Limits {
                 let measured = got.is_some_and(|(least, most)| !least.is_nan() && !most.is_nan());
                 let got = got.map_or("none".to_owned(), rates);
                 let line = format!("expected {}, got {got}", rate_within((low, high)));
-                unmet.push(UnmetFigure { unmet: not_conserved(line), measured });
+                unmet.push(UnmetFigure::new(UnmetCode::NotConserved, line, measured));
             }
         }
         unmet
@@ -162,10 +165,6 @@ impl Limits {
         };
         self.bounds.iter().map(check).collect()
     }
-}
-
-fn not_conserved(text: String) -> Unmet {
-    Unmet::new(UnmetCode::NotConserved, text)
 }
 
 fn rate_within(bounds: (f64, f64)) -> String {

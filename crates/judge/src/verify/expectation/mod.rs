@@ -124,7 +124,7 @@ impl Expectation {
             let measured = found.finest_pair.is_some_and(|order| !order.is_nan());
             let is_high = found.finest_pair.is_some_and(|order| order > bounds.1);
             let code = if is_high { UnmetCode::OrderTooHigh } else { UnmetCode::OrderTooLow };
-            unmet.push(UnmetFigure { unmet: Unmet::new(code, line), measured });
+            unmet.push(UnmetFigure::new(code, line, measured));
         }
         if let Some(some) = self.crossings
             && found.crossings.map(|n| n > 0) != Some(some)
@@ -132,8 +132,8 @@ impl Expectation {
             let wanted = if some { "some" } else { "no" };
             let got = found.crossings.map_or("none counted".to_owned(), |n| n.to_string());
             let line = format!("expected {wanted} crossings on the finest level, got {got}");
-            let crossings = Unmet::new(UnmetCode::CrossingsDiffer, line);
-            unmet.push(UnmetFigure { unmet: crossings, measured: found.crossings.is_some() });
+            let measured = found.crossings.is_some();
+            unmet.push(UnmetFigure::new(UnmetCode::CrossingsDiffer, line, measured));
         }
         unmet.extend(self.limits.unmet(&found.measured));
         if let Some(cause) = self.floor
@@ -141,8 +141,8 @@ impl Expectation {
         {
             let got = found.floor.map_or("not determined", FloorCause::name);
             let line = format!("expected the floor of `{}`, got `{got}`", cause.name());
-            let floor = Unmet::new(UnmetCode::FloorDiffers, line);
-            unmet.push(UnmetFigure { unmet: floor, measured: found.floor.is_some() });
+            let measured = found.floor.is_some();
+            unmet.push(UnmetFigure::new(UnmetCode::FloorDiffers, line, measured));
         }
         unmet
     }

@@ -38,7 +38,6 @@ impl Interval {
     }
 }
 
-/// One level on logarithmic axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LogPoint {
     /// Index of the level among the sorted levels.
@@ -52,7 +51,6 @@ pub(crate) struct LogPoint {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FittedLine {
     pub(crate) slope: f64,
-    /// Residual sum of squares.
     pub(crate) rss: f64,
     mean_x: f64,
     mean_y: f64,

@@ -14,7 +14,6 @@ pub const PERIODS: f64 = 20.0;
 /// Fraction of the initial amplitude at which the run of a damped wave ends.
 const LEAST_KEPT: f64 = 1e-6;
 
-/// Minimum number of steps of a run.
 const FEWEST_STEPS: f64 = 16.0;
 
 /// Trace and determinant of the 2 x 2 matrix of a step (see [`Recurrence`]), measured in a run.

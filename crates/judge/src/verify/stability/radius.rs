@@ -3,7 +3,6 @@
 use nalgebra::DMatrix;
 use nalgebra::linalg::Schur;
 
-/// Maximum number of QR iterations before the radius is computed from powers of the matrix.
 const PATIENCE: usize = 1_000;
 
 /// An entry below the diagonal counts as zero if it is less than this fraction of its diagonal

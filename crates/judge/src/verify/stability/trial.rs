@@ -53,7 +53,6 @@ struct TrialMonitor {
     energy: f64,
     last: f64,
     speed: f64,
-    /// Largest kinetic energy so far (J).
     kinetic: f64,
     /// Current and largest kinetic energy in the null space (J).
     null: f64,
@@ -232,6 +231,7 @@ mod tests {
     };
     use approx::assert_relative_eq;
     use mpm_subject::{RunCounters, Totals};
+    use rstest::rstest;
 
     /// One point of mass 2 under a stress of 1, with a given kinetic energy (J) for each step.
     struct Scripted {
@@ -352,29 +352,17 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_sign_that_changes_from_particle_to_particle_counts_twice() {
-        assert_relative_eq!(checkerboard(&row(&[1.0, -1.0, 1.0, -1.0, 1.0])), 2.0);
-    }
-
-    #[test]
-    fn uniform_stress_has_no_checkerboard() {
-        assert_relative_eq!(checkerboard(&row(&[3.0; 4])), 0.0);
-        assert!(checkerboard(&row(&[0.0; 4])).is_nan());
-        assert!(checkerboard(&row(&[])).is_nan());
-    }
-
-    /// The third particle has no neighbours, and does not count.
-    #[test]
-    fn checkerboard_ignores_particles_without_neighbours() {
-        let apart = Samples { label: vec![0.0, 1.0, 9.0], ..row(&[1.0, 3.0, 2.0]) };
-        assert_relative_eq!(checkerboard(&apart), (8.0_f64 / 10.0).sqrt());
-    }
-
-    #[test]
-    fn a_particle_is_held_against_the_mean_of_its_neighbours() {
-        let found = checkerboard(&row(&[1.0, 4.0, 3.0]));
-        assert_relative_eq!(found, ((9.0 + 4.0 + 1.0) / 26.0_f64).sqrt());
+    /// Each particle is compared with the mean of its neighbours; without any it does not count.
+    #[rstest]
+    #[case::alternating(&[0.0, 1.0, 2.0, 3.0, 4.0], &[1.0, -1.0, 1.0, -1.0, 1.0], 4.0)]
+    #[case::uniform(&[0.0, 1.0, 2.0, 3.0], &[3.0; 4], 0.0)]
+    #[case::apart(&[0.0, 1.0, 9.0], &[1.0, 3.0, 2.0], 8.0 / 10.0)]
+    #[case::a_mean(&[0.0, 1.0, 2.0], &[1.0, 4.0, 3.0], (9.0 + 4.0 + 1.0) / 26.0)]
+    #[case::zero(&[0.0, 1.0, 2.0, 3.0], &[0.0; 4], f64::NAN)]
+    #[case::nothing(&[], &[], f64::NAN)]
+    fn checkerboards(#[case] label: &[f64], #[case] stress: &[f64], #[case] square: f64) {
+        let found = checkerboard(&Samples { label: label.to_vec(), ..row(stress) });
+        assert!((found - square.sqrt()).abs() < 1e-15 || found.is_nan() && square.is_nan());
     }
 
     #[test]

@@ -286,6 +286,8 @@ mod tests {
         let low = (TooLow, order(1.7, 0.05));
         assert_eq!(evidence(&diagnosis(low, to(2.05))), Some(Evidence::Restored));
         assert_eq!(evidence(&diagnosis(low, to(2.4))), None);
+        let low = (TooLow, order(1.79, 0.05));
+        assert_eq!(evidence(&diagnosis(low, to(1.81))), None, "the order hardly moves");
     }
 
     /// A change to an order whose interval exceeds the range does not explain a nearly correct one.
@@ -295,12 +297,6 @@ mod tests {
         let to = |half_width| (Converging, order(2.0, half_width), 0.9);
         assert_eq!(evidence(&diagnosis(near, to(0.05))), Some(Evidence::Restored));
         assert_eq!(evidence(&diagnosis(near, to(0.15))), None);
-    }
-
-    #[test]
-    fn an_order_that_hardly_moves_is_not_restored() {
-        let low = (TooLow, order(1.79, 0.05));
-        assert_eq!(evidence(&diagnosis(low, (Converging, order(1.81, 0.05), 0.9))), None);
     }
 
     /// Creates a known cause of the given kind, with the order 1.97 after its removal.

@@ -16,9 +16,7 @@ use super::program::{Action, Instruction, Loop, Operand, run};
 use super::scope::{Scope, Tabulated};
 use std::collections::BTreeSet;
 
-/// Maximum number of nodes of a formula, including the functions it calls.
 const MAX_NODES: usize = 100_000;
-/// Maximum nesting depth of a formula, including the functions it calls.
 const MAX_DEPTH: usize = 256;
 /// Maximum number of operations of one evaluation, including every term of every sum.
 const MAX_OPERATIONS: u64 = 10_000_000;
@@ -104,7 +102,6 @@ impl<'a> ProgramBuilder<'a> {
         Ok(left)
     }
 
-    /// Compiles any node except a binary operation.
     fn leaf(
         &mut self,
         frame: &mut Frame<'a>,
@@ -161,7 +158,6 @@ impl<'a> ProgramBuilder<'a> {
         self.registers = self.registers.max(to + 1);
     }
 
-    /// Compiles each argument once, then the body.
     fn call(
         &mut self,
         frame: &mut Frame<'a>,
