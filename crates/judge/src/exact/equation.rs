@@ -23,8 +23,7 @@ impl Equation {
         pushed_forward(&piola, grad)
     }
 
-    /// Returns `J F^-T N` (Nanson's formula), the current area vector per reference area. N is the
-    /// outward normal of the `high` or low face along `axis`, and the result for small strains.
+    /// Returns `J F^-T N` (Nanson's formula) of the `high` or low face; N for small strains.
     pub fn present_area(&self, grad: &Tensor<f64>, axis: usize, high: bool) -> [f64; 3] {
         let outwards = if high { 1.0 } else { -1.0 };
         let f: Tensor<f64> = if self.is_finite() {

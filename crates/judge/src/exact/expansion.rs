@@ -94,8 +94,7 @@ mod tests {
 
     const GRAD: Tensor<f64> = [[0.1, 0.2, 0.0], [-0.05, 0.03, 0.0], [0.0; 3]];
 
-    /// Without expansion, the stress is that of the law. A freely expanding body has the
-    /// displacement gradient (theta - 1) I, without stress or force even for varying theta.
+    /// A freely expanding body, `grad u = (theta - 1) I`, has no stress or force.
     #[rstest]
     #[case(SmallStrainLaw::new(50.0, 0.3).into())]
     #[case(NeoHookeanLaw::new(50.0, 0.3).into())]

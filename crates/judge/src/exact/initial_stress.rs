@@ -1,10 +1,9 @@
 //! Initial stress in the reference configuration.
 //!
-//! For a finite-strain law, the initial stress is a second Piola-Kirchhoff stress S0, `P = P_law(F)
-//! + F S0`, the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2` (Merodio, Ogden &
-//! Rodriguez 2013, Int. J. Non-Linear Mech. 56). Small waves along S0 satisfy `rho0 c^2 = M + S0`.
-//! For a small-strain law, `P = C : eps + S0` neglects `grad u S0`, so S0 must be much smaller than
-//! the moduli.
+//! For a finite-strain law, it is a second Piola-Kirchhoff stress S0: `P = P_law(F) + F S0` is the
+//! derivative of `W_law(F) + S0 : E`, `E = (F^T F - I)/2` (Merodio, Ogden & Rodriguez 2013, Int. J.
+//! Non-Linear Mech. 56). Small waves along S0 satisfy `rho0 c^2 = M + S0`. For a small-strain law,
+//! `P = C : eps + S0` neglects `grad u S0`, so S0 must be much smaller than the moduli.
 //!
 //! For a law with a yield surface, S0 is the stress of an elastic initial strain, and is not added.
 

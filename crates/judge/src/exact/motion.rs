@@ -97,8 +97,7 @@ pub trait Places: Send {
     /// Sets the time to `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// Writes the derivatives at the position with index `place`, bit-identical to those of
-    /// [`Motion::derivatives`]. Components on missing axes are not written. Does not allocate.
+    /// Writes the derivatives at position number `place`, without those on missing axes.
     fn derivatives(&mut self, place: usize, into: &mut Derivatives);
 }
 

@@ -40,8 +40,7 @@ pub struct Problem {
     pub equation: Equation,
     /// Terms of the loads in the equation of motion.
     pub terms: Vec<Arc<dyn Term>>,
-    /// Whether the motion is an equilibrium: it does not depend on t, is checked with the loads at
-    /// the end of the run, and need not satisfy the initial conditions.
+    /// Whether the motion is an equilibrium under the loads at the end, without initial conditions.
     pub at_rest: bool,
     /// Whether a body force is added for the motion (manufactured solutions, Roache 2002).
     pub manufactured: bool,
@@ -306,8 +305,7 @@ impl Problem {
         self.equation.density_factor(self.density.at(label))
     }
 
-    /// Computes the terms of Div P (N/m3) without derivatives in a body of revolution, `((P_rR -
-    /// P_tT)/R, P_zR/R)` at radius R (Malvern 1969, appendix II); zero for other bodies.
+    /// Computes `((P_rR - P_tT)/R, P_zR/R)` in a body of revolution (Malvern 1969); otherwise zero.
     pub(super) fn hoop_force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         if self.plane != PlaneState::Axisymmetric {
             return [0.0; 3];

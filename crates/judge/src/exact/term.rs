@@ -4,8 +4,7 @@ use super::expansion::Expansion;
 use super::formula::Formula;
 use std::fmt::Debug;
 
-/// The terms of a load in the equation of motion, `rho0 u_tt = Div P + rho0 b`, and in the check of
-/// an exact solution. Each load implements only the methods it needs.
+/// The terms of a load in `rho0 u_tt = Div P + rho0 b`. A load implements the methods it needs.
 pub trait Term: Debug + Send + Sync {
     /// Returns component i of the force (m/s2) at `label` (m), for the displacement `u` (m).
     fn stated(&self, _i: usize, _label: &[f64], _t: f64, _u: &[f64; 3]) -> f64 {

@@ -83,8 +83,7 @@ pub struct LevelOutcome {
     pub error: f64,
     /// Whether the level may count for the verdict.
     pub usable: bool,
-    /// Bound on the rounding error in the judged norm, in the unit of the judged quantity, for
-    /// single precision judged by displacement, or if `run --gate` has a requirement.
+    /// Bound on the rounding error in the judged norm, if the judgement uses it.
     pub rounding_bound: Option<f64>,
     /// Whether the displacement error (m) is smaller than `rounding_bound`.
     pub is_below_rounding: bool,

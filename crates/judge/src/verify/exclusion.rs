@@ -24,8 +24,7 @@ named! {
     }
 }
 
-/// Returns the distance (m) between `largest`, the largest absolute coordinate (m), and the next
-/// smaller single-precision number. `None` unless it is a normal number in single precision.
+/// Returns the distance (m) of `largest` (m) from the next smaller normal single-precision number.
 pub fn single_precision_spacing(largest: f64) -> Option<f64> {
     // The coordinate is rounded first: 1 + 1e-16, for example, is 1 in single precision.
     let largest = largest as f32;

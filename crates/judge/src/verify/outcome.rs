@@ -226,8 +226,7 @@ impl CaseOutcome {
         Self { verdict, reason, lacks, ..self }
     }
 
-    /// Converts the outcome to that of a case that an external solver rejected. The case is not
-    /// applicable if the solver does not support the problem, and fails if the solver failed.
+    /// Converts the outcome to that of a case that an external solver rejected or failed to run.
     #[must_use]
     pub fn not_run(self, error: &SubjectError) -> Self {
         match error {

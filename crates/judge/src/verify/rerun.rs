@@ -19,8 +19,7 @@ pub trait Reruns: Sync {
     /// Reason why a level cannot be run.
     type Error: Display + Send;
 
-    /// Whether halving a spacing can reveal which axis causes an error. False if the reference is
-    /// computed by the same method, because the spacings of the reference are not halved.
+    /// Whether halving a spacing can reveal a cause: not with a reference by the same method.
     fn can_halve(&self) -> bool;
 
     /// Runs the level with half the spacing on an axis; `None` if the level has no such spacing.

@@ -24,8 +24,7 @@ pub(crate) fn step(extent: f64, largest: &[f64]) -> f64 {
     scales.filter(|scale| *scale > 0.0).fold(STEP * extent, f64::min)
 }
 
-/// Runs `check` at groups of three successive `events`. Reports a violation only if all three
-/// checks fail, because finite differences are wrong at a kink such as a wave front.
+/// Reports a violation only if three successive `events` fail, because kinks mislead differences.
 pub(crate) fn away_from_kinks<'a>(
     events: impl ExactSizeIterator<Item = &'a Event>,
     check: impl Fn(&Event) -> Result<(), Violation>,

@@ -16,8 +16,7 @@ use super::problem::{Linearised, Problem};
 use super::violation::Violation;
 
 impl Problem {
-    /// Checks the motion at reproducible random points: the equation (pointwise and in weak form),
-    /// the boundary conditions and the initial conditions.
+    /// Checks the motion at random points: the equation, boundary and initial conditions.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -25,8 +24,7 @@ impl Problem {
         self.check_with(&Survey::new(self))
     }
 
-    /// Checks the motion like [`check`](Self::check). Residuals are divided by the magnitudes in
-    /// `survey`, which in a problem with several bodies must be the maxima over all of them.
+    /// Checks the motion like [`check`](Self::check), with the `survey` of a whole scene.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -50,8 +48,7 @@ impl Problem {
         boundary::conditions(self, std::slice::from_ref(face), survey).err()
     }
 
-    /// Returns the largest relative residual of the equation of motion and of tractions on faces
-    /// and rims. NaN if another condition is violated, or if the residual is not finite.
+    /// Returns the largest relative residual; NaN if another condition is violated.
     pub fn residual(&self) -> f64 {
         let problems =
             if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies };

@@ -171,8 +171,7 @@ pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(),
     Ok(())
 }
 
-/// Checks that the law has a stress for each strain of the motion. Cam-clay has none where it
-/// yields in extension or softens, and most laws have none for a body that is turned inside out.
+/// Checks that the law has a stress: cam-clay has none where it yields in extension or softens.
 pub(crate) fn known_stress(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     for SurveyPoint { event, now, .. } in &survey.points {
         let piola = problem.piola(&event.label, event.t, now);

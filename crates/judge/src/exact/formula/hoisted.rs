@@ -13,8 +13,7 @@ use std::collections::BTreeMap;
 
 /// Formulas of the same variables (coordinates, then time) at fixed positions for many times.
 ///
-/// Terms that depend only on position are computed once per position, and terms that depend only on
-/// time once per time. The values are bit-identical to those of [`Formula::eval`].
+/// Terms of position only, or of time only, are computed once. Values equal [`Formula::eval`].
 #[derive(Debug, Clone)]
 pub struct Hoisted<T> {
     split: Split,
@@ -264,8 +263,7 @@ impl Homes {
     }
 }
 
-/// Returns the part that computes an input of `reader`. A constant is computed in the part that
-/// uses it, except that the part `time` computes those of `rest`, which runs most often.
+/// Returns the part that computes an input of `reader`; `time` also computes constants of `rest`.
 fn home(dependence: Dependence, reader: Dependence) -> Dependence {
     match (dependence, reader) {
         (NOTHING, BOTH) => TIME,

@@ -144,8 +144,7 @@ impl<const N: usize, H: Hessian<N>> Dual<N, H> {
         self.gradient[i] == 0.0 && (0..N).all(|j| self.hessian.at(i, j) == 0.0)
     }
 
-    /// Clears the derivatives with respect to variables on which the argument does not depend.
-    /// Otherwise they would be NaN (infinity times 0) if the function has an infinite derivative.
+    /// Clears derivatives with respect to other variables, which would be NaN (infinity times 0).
     fn flattened(&self, flat: impl Fn(usize) -> bool) -> Self {
         Self::build(
             self.value,

@@ -24,13 +24,11 @@
 //!
 //! # Reproducibility
 //!
-//! Transcendental functions come from `libm`, so formulas are bit-identical on all platforms. The
-//! value of a [`Jet`] is bit-identical to the evaluation over `f64`.
+//! Transcendental functions come from `libm`, so formulas are bit-identical on all platforms.
 //!
 //! # Hostile input
 //!
-//! Length, number of tokens, depth, size after inlining and number of operations are limited.
-//! Formulas above a limit give a [`FormulaError`], never a stack overflow or an endless loop.
+//! Formulas above limits give a [`FormulaError`], never a stack overflow or an endless loop.
 //!
 //! ```
 //! use mpm_judge::exact::formula::{Expr, Formula, Jet, Scope};

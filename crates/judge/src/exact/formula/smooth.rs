@@ -8,8 +8,7 @@ use super::unary::Unary;
 impl Formula {
     /// Whether the value is an analytic function of all real variables, without kinks and jumps.
     ///
-    /// A quotient counts as smooth only if its divisor is constant, because for example `tanh(1/x)`
-    /// jumps. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not count as smooth.
+    /// A quotient is smooth only if its divisor is constant, because for example `tanh(1/x)` jumps.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
         let varies = |operand: &Operand| varies(*operand, &varying);

@@ -1,7 +1,6 @@
 //! Checks of an exact temperature: heat equation, boundary conditions and initial conditions.
 //!
-//! The heat equation is also checked in weak form on random space-time patches. This detects a heat
-//! source on a surface, where the temperature has a kink that pointwise checks miss.
+//! The weak form detects heat sources on surfaces, where the temperature has a kink.
 //!
 //! For any smooth `phi` that vanishes on the boundary of a patch,
 //! `int int (rho0 c T phi_t - k J C^-1 Grad T . Grad phi + rho0 s phi) dX dt = 0`.
@@ -21,8 +20,7 @@ use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
 impl Conduction {
-    /// Checks the temperature at reproducible random points: the heat equation (pointwise and in
-    /// weak form), the boundary conditions and the initial conditions.
+    /// Checks the temperature at random points: the equation, boundary and initial conditions.
     ///
     /// # Errors
     /// The first [`Violation`].

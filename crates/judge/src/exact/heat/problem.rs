@@ -144,8 +144,7 @@ pub trait HeatFacePoint {
     fn continues_on_opposite_face(&self) -> Result<(), Violation>;
 }
 
-/// Evaluates the heat source (W/kg) at the reference position `label` (m), a time (s) and a
-/// temperature (K). Variables of `formula` are the coordinates, t and optionally T.
+/// Evaluates the heat source (W/kg), a formula of the coordinates, t and optionally T.
 pub fn source_at(formula: &Formula, label: &[f64], t: f64, temperature: f64) -> f64 {
     let mut all = [0.0; 5];
     all[..4].copy_from_slice(&variables(label, t));

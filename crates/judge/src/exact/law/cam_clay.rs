@@ -113,8 +113,7 @@ impl CamClayLaw {
         bisect(low, high, |eta| (self.cubic(eta) > 0.0) == rises)
     }
 
-    /// Returns the coefficients `b/2` and `e` of the partial fraction
-    /// `(b eta + e M)/(M^2 + eta^2)`. At `eta = i M`, the numerator of this fraction equals `-N/C`.
+    /// Returns `b/2` and `e` of `(b eta + e M)/(M^2 + eta^2)`, which equals `-N/C` at `eta = i M`.
     fn at_the_imaginary_slope(&self) -> [f64; 2] {
         let ([a, d], m) = (self.weights(), self.slope);
         let numerator = [4.0 * d * m * m, 8.0 / 3.0 * d * m * m * m];

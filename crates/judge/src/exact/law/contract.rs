@@ -17,8 +17,7 @@ pub(super) trait ConstitutiveLaw {
     /// Computes P (Pa) for `grad[i][j] = du_i/dX_j`, at unit density if the law depends on it.
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D>;
 
-    /// Computes the energy W (J/m3) with `P = dW/dF`. The energy is zero at rest or, for a gas, in
-    /// the limit of infinite expansion. Returns `None` for a law without energy, or with history.
+    /// Computes the energy W (J/m3), `P = dW/dF`; `None` for a law without energy, or with history.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let _ = grad;
         None

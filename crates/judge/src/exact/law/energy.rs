@@ -13,8 +13,7 @@ pub(super) fn assert_stress_is_derivative(law: impl ConstitutiveLaw + Copy) {
     stress_is_the_derivative_of_the_energy(law, 0.0, 0.0);
 }
 
-/// Each case has the law, and the mean stress (Pa, positive in compression) and the energy (J/m3)
-/// of a body at rest. A polytropic gas of unit density has p = K and W = K/(g - 1).
+/// Each case has the law, the mean pressure (Pa) and the energy (J/m3) of a body at rest.
 #[rstest]
 #[case::corotated(CorotatedLaw::new(50.0, 0.3), 0.0, 0.0)]
 #[case::hencky(HenckyLaw::new(50.0, 0.3), 0.0, 0.0)]

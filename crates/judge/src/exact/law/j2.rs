@@ -23,8 +23,7 @@ impl J2Law {
         Self { lame: Lame::new(young, poisson), yield_stress, hardening }
     }
 
-    /// Returns the law in uniaxial strain, where `q = |axial - lateral|`. A unit of flow reduces
-    /// the axial stress by 2 mu and the lateral stress by -mu if the axial stress is the largest.
+    /// Returns the law in uniaxial strain. A unit of flow reduces the stresses by 2 mu and -mu.
     fn uniaxial(&self) -> UniaxialLaw {
         let Self { lame, yield_stress: strength, hardening } = *self;
         let limit = |sign: f64| UniaxialYield {

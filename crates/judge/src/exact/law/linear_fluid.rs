@@ -1,5 +1,4 @@
-//! An inviscid fluid with linear compressibility, `P = -p J F^-T`, `p = -K (J - 1)`. In uniaxial
-//! strain, `P = K u_X` gives the wave equation of linear acoustics exactly.
+//! An inviscid fluid with linear compressibility, `P = -p J F^-T`, `p = -K (J - 1)`.
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;

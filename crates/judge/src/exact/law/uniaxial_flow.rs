@@ -54,8 +54,7 @@ pub(in crate::exact) fn strained_axis<T: Number, const D: usize>(
     others.all(|(i, j)| is_zero(i, j)).then_some(axis)
 }
 
-/// Computes P (Pa) in uniaxial strain, where `kirchhoff` returns the axial and the lateral
-/// Kirchhoff stress (Pa) at a logarithmic strain along an axis. NaN for any other deformation.
+/// Computes P (Pa) in uniaxial strain from `kirchhoff`. NaN for any other deformation.
 pub(super) fn uniaxial_piola<T: Number, const D: usize>(
     grad: &Tensor<T, D>,
     kirchhoff: impl FnOnce(T, usize) -> [T; 2],
@@ -173,8 +172,7 @@ mod tests {
         (piola[0][0] * libm::exp(strain), law.flows(grad[0][0], &initial))
     }
 
-    /// The axial stress is the same along every axis, and the lateral stresses are on the yield
-    /// surface or are those of Hooke's law. The stress is undefined for other deformations.
+    /// The axial stress is the same along every axis, and undefined for other deformations.
     #[rstest]
     fn uniaxial_strain_has_the_same_stress_along_every_axis(
         #[values(-0.03, -1e-4, 0.0012, 0.003)] grad: f64,

@@ -51,8 +51,7 @@ pub trait Outline: Debug + Send + Sync {
         0.0
     }
 
-    /// Returns the part of a lattice cell that belongs to the body, as particles. The cell of one
-    /// particle of a regular lattice is a box with half-lengths `half` (m) around `centre`.
+    /// Returns the part of a cell (`centre` and half-lengths `half`) in the body, as particles.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut;
 
     /// Returns the volume of the part of the body in a box (m^D).

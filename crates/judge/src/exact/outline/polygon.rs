@@ -179,8 +179,7 @@ impl Outline for Polygon {
             left < 0.0
         });
         let chart = chosen.unwrap_or(self.triangles.len() - 1);
-        // The chart collapses one side of the square to a corner, so the area per unit of the first
-        // coordinate grows in proportion to it. The square root makes the distribution uniform.
+        // The area grows in proportion to the first coordinate; the square root makes it uniform.
         self.place(chart, &[random.unit().sqrt(), random.unit()]).0
     }
 

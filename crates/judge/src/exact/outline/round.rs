@@ -197,8 +197,7 @@ fn direction(angle: f64, height: f64) -> [f64; 3] {
 /// Number of panels between two kinks. With four, a kink just outside causes an error of 1e-9.
 const PANELS: usize = 8;
 
-/// Computes the volume of the intersection of a ball with this `radius` and the box between `ends`:
-/// an integral along the last axis over slices, which are intersections with a smaller ball.
+/// Computes the volume common to a ball and the box between `ends`, by slices (smaller balls).
 pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     let Some((&(low, high), others)) = ends.split_last() else { return 1.0 };
     let (low, high) = (low.max(-radius), high.min(radius));
@@ -216,8 +215,7 @@ pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     }
 }
 
-/// Computes the integral of `slice` between two kinks. At a kink, the integrand grows like a power
-/// of the square root of the distance; the substitution `(3 xi - xi^3)/2` makes it smooth.
+/// Integrates `slice` between two kinks, smooth by the substitution `(3 xi - xi^3)/2`.
 fn integral(ends: &[f64], slice: impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (f64::midpoint(ends[0], ends[1]), 0.5 * (ends[1] - ends[0]));
     let term = |(xi, weight): &(Vec<f64>, f64)| {

@@ -1,7 +1,6 @@
 //! Levels of one method: error, work, converging part, Pareto front, and work to reach an error.
 //!
-//! An error may be interpolated between two levels of the converging part. Elsewhere a small error
-//! may be accidental, because the error may change sign or fluctuate.
+//! Errors are interpolated in the converging part; elsewhere a small error may be accidental.
 
 use std::ops::Range;
 

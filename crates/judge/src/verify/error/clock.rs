@@ -1,7 +1,6 @@
 //! Chooses a time step near the requested one, such that the run has a whole number of steps.
 
-/// Number of steps of one run, and the instants at which errors are measured. Each instant is the
-/// end of a step. The instants are as evenly spaced as the steps allow.
+/// Number of steps of one run, and the evenly spaced ends of steps at which errors are measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     /// End of the run (s).
@@ -25,8 +24,7 @@ pub enum StepKind {
 /// Maximum number of steps of a run. The limit prevents endless runs due to a mistyped dt.
 pub const MOST_STEPS: f64 = 1e9;
 
-/// Maximum relative difference between the requested and the actual step. An error of second order
-/// in the step then changes by at most 2 %, and an observed order by at most 0.03.
+/// Maximum relative change of the step, which changes an observed order by at most 0.03.
 pub const STEP_TOLERANCE: f64 = 0.01;
 
 impl Clock {

@@ -1,7 +1,6 @@
 //! A box of reference positions to which errors are restricted.
 //!
-//! In a free body with a uniform velocity gradient, the stress is uniform until waves arrive from
-//! the faces. Errors in a box that no wave has reached do not depend on the faces.
+//! Errors in a box that no wave from the faces has reached do not depend on the faces.
 
 use crate::verify::tuple;
 use mpm_subject::Samples;

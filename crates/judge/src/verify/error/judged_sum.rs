@@ -17,8 +17,7 @@ pub struct JudgedSum {
 }
 
 impl JudgedSum {
-    /// Prepares the comparison of the quantity `of`, which must be a sum over the body of
-    /// `problem`. `walls` are the indices of the faces whose force is judged as the reaction.
+    /// Prepares the comparison of a sum over the body of `problem`, or of the force on `walls`.
     ///
     /// # Errors
     /// Reason why the exact value is unknown, as a phrase that follows the name of the quantity.

@@ -139,8 +139,7 @@ impl Quantity {
         matches!(self, Self::StressZz | Self::MeanStress | Self::DeviatoricStress)
     }
 
-    /// Returns the names of the sample columns that the quantity is computed from in `dimension`
-    /// dimensions; empty for a sum over the body, or if every solver reports the quantity.
+    /// Returns the names of the sample columns of the quantity that not every solver reports.
     pub fn columns(self, dimension: usize) -> Vec<&'static str> {
         if !self.is_optional() || self.is_sum() {
             return Vec::new();

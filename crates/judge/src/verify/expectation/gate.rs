@@ -37,8 +37,7 @@ pub struct Requirement {
     pub order: Option<f64>,
     /// Bound at or below which errors are accepted without an order.
     pub error_below: Option<f64>,
-    /// Bound on the errors of the suite's own methods, if no other bound is given. Because of this
-    /// bound, a method with too few levels for an order may be accepted, but no method is rejected.
+    /// Bound for accepting the suite's own methods with too few levels; it rejects no method.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,

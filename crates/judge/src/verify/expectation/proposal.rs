@@ -11,8 +11,7 @@ use mpm_subject::named;
 /// Maximum drift that is explained by rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
-/// Minimum ratio of a proposed bound to the measured drift. On another processor or with other
-/// settings, sums may be computed in a different order, with different rounding errors.
+/// Minimum ratio of a bound to the measured drift, as sums may be computed in another order.
 const ROOM_OF_DRIFT: f64 = 30.0;
 
 /// Ratio of a proposed error bound to the largest measured error.

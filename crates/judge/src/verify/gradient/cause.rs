@@ -49,8 +49,7 @@ pub struct GradientEvidence {
 }
 
 impl GradientEvidence {
-    /// Returns the probable mistake in the derivative with respect to `parameter`; `None` if there
-    /// is no explanation. `value` is the check of the reported value of the functional.
+    /// Returns the probable mistake in the derivative with respect to `parameter`, if known.
     pub fn cause(&self, parameter: &str, value: &ValueCheck) -> Option<String> {
         if !value.agrees() {
             let is_earlier = (value.reported - self.one_step_less).abs() <= value.tolerance;

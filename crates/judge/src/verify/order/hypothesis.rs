@@ -43,8 +43,7 @@ impl OrderHypothesis {
         self.expected.unwrap_or(usual)
     }
 
-    /// Returns the reason why this hypothesis cannot be tested: the range is not finite and
-    /// positive, or is so wide that nearly every order is inside. `None` if it can be tested.
+    /// Returns the reason why this hypothesis cannot be tested: an invalid or very wide range.
     pub fn diagnostic(&self) -> Option<String> {
         let (low, high) = self.range();
         let orders = [self.formal_order, low, high];

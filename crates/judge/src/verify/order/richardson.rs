@@ -11,9 +11,9 @@
 //! values have an order `p`: their changes have one sign and shrink as a positive order requires.
 //!
 //! Three values always fit, so they give no interval; an interval requires a fourth value
-//! (`limit_estimate`). The grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache
-//! 1994) is not offered, because it contains the true error of only 73 of 100 series of the suites.
-//! The "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is identically `u1 / u2`.
+//! (`limit_estimate`). The index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` of Roache (1994) is not
+//! offered, because it contains the true error of only 73 of 100 series of the suites. The
+//! "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is identically `u1 / u2`.
 
 use crate::exact::bisection::bisect;
 

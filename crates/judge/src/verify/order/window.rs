@@ -86,8 +86,7 @@ impl Window {
     }
 }
 
-/// Returns the asymptotic window among the points before `end` (the beginning of a floor, if one is
-/// known). `None` if there are too few points or if no line can be fitted to them.
+/// Returns the asymptotic window among the points before `end`, the beginning of a floor.
 pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> Option<Window> {
     if end < FEWEST_LEVELS {
         return None;

@@ -86,8 +86,7 @@ impl Recurrence {
         libm::log(0.5 * (self.trace().abs() + (-discriminant).sqrt()))
     }
 
-    /// Returns the relative error of the phase speed of a wave whose length is `cells` cells, at
-    /// the Courant number `courant`. `None` if the wave is overdamped and has no phase.
+    /// Returns the relative error of the phase speed; `None` if the wave is overdamped.
     pub fn phase_error(&self, cells: f64, courant: f64) -> Option<f64> {
         Some(self.angle()? / (TAU / cells * courant) - 1.0)
     }

@@ -18,8 +18,7 @@ pub struct StabilityExpectation {
 /// Bounds on a measured value; all stated bounds must hold.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FigureBounds {
-    /// Expected value, and the maximum difference between the measured and the expected value. The
-    /// difference is relative to the expected value, or absolute if that value is zero.
+    /// Expected value, and the maximum difference, relative unless the expected value is zero.
     pub is: Option<(f64, f64)>,
     /// Minimum measured value.
     pub above: Option<f64>,

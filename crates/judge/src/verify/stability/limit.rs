@@ -23,8 +23,7 @@ impl StabilityLimit {
     }
 }
 
-/// Searches for the limit between `low` and `high`, which are both positive. Tests `points` values
-/// in geometric progression, then bisects to the relative interval length `tolerance`.
+/// Tests `points` values from `low` to `high`, then bisects to the relative length `tolerance`.
 ///
 /// # Errors
 /// The first error of `stable`.

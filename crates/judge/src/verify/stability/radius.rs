@@ -5,8 +5,7 @@ use nalgebra::linalg::Schur;
 
 const PATIENCE: usize = 1_000;
 
-/// An entry below the diagonal counts as zero if it is less than this fraction of its diagonal
-/// neighbours. Rounding errors would prevent convergence with a much smaller threshold.
+/// Fraction of its diagonal neighbours below which an entry below the diagonal counts as zero.
 const SMALL: f64 = 1e-13;
 
 /// Number of times that the matrix is squared: powers up to 2^30.
@@ -17,8 +16,7 @@ const SQUARINGS: i32 = 30;
 pub struct Radius {
     /// Modulus of the largest eigenvalue; infinite if an entry of the matrix is not finite.
     pub radius: f64,
-    /// Real part and magnitude of the imaginary part of the largest eigenvalue, if computed. A mode
-    /// with eigenvalue -1 changes its sign in every step; a complex one oscillates more slowly.
+    /// Real part and magnitude of the imaginary part of the largest eigenvalue, if computed.
     pub eigenvalue: Option<(f64, f64)>,
 }
 
@@ -50,8 +48,8 @@ pub fn spectral_radius(matrix: &DMatrix<f64>) -> Radius {
     largest
 }
 
-/// Computes the spectral radius by repeated squaring, with rounding errors relative to the largest
-/// eigenvalue. If that is defective of multiplicity m, the error is (m - 1) ln(k)/k.
+/// Computes the spectral radius by repeated squaring. If the largest eigenvalue is defective of
+/// multiplicity m, the error is (m - 1) ln(k)/k.
 fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     let (mut power, mut logarithm) = (matrix.clone(), 0.0);
     for k in 0..=SQUARINGS {

@@ -195,8 +195,7 @@ pub(super) fn stress_spread(samples: &Samples) -> f64 {
     (high - low) / high.abs().max(low.abs())
 }
 
-/// Computes the RMS difference of the mean normal stress of particles and of their neighbours,
-/// relative to its RMS. NaN without stresses or neighbours, or with too many particles.
+/// Computes the RMS deviation of mean stresses from neighbours, relative to their RMS, or NaN.
 pub(super) fn checkerboard(samples: &Samples) -> f64 {
     let (n, d) = (samples.len(), samples.dimension.max(1));
     let Some(pressure) = pressures(samples).filter(|_| (2..=MOST).contains(&n)) else {

@@ -1,5 +1,4 @@
-//! Detects divergence, oscillation and floors (errors that stop decreasing) in a series of errors.
-//! The rules use only error ratios, so the units of the error and of `h` have no effect.
+//! Detects divergence, oscillation and floors in a series of errors, by their ratios only.
 
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::window::{FEWEST_LEVELS, FLAT_ORDER};

@@ -43,8 +43,7 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// Returns the cause of the floor. Of the axes that lower the error enough, this is the one
-    /// with the largest effect. [`FloorCause::Nothing`] requires that every probe reached its end.
+    /// Returns the axis with the largest effect, or [`FloorCause::Nothing`] if every probe ended.
     pub fn cause(&self) -> Option<FloorCause> {
         let errors =
             self.probes.iter().filter_map(|probe| Some((probe, *probe.error.as_ref().ok()?)));

@@ -76,8 +76,7 @@ impl<'a> ProgramBuilder<'a> {
         self.compile(&mut frame, expr.root(), 0)
     }
 
-    /// Compiles a node and its children. A loop processes left operands, whose chains may be as
-    /// long as the source. Other operands are compiled by recursion, whose depth the parser limits.
+    /// Compiles a node and its children, left operands by a loop, others by (limited) recursion.
     fn compile(
         &mut self,
         frame: &mut Frame<'a>,
