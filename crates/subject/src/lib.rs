@@ -10,13 +10,11 @@
 
 mod column;
 mod dimension;
-mod energy_balance;
 mod functional;
 mod named;
 mod nearest;
 
 pub use column::{BodyFields, Column, ColumnSize, Entry, Holder, Profile, StateField};
-pub use energy_balance::{EnergyBalance, LedgerStage};
 pub use functional::{Functional, FunctionalValue, GradientParameter};
 pub use nearest::{by_nearness, nearest};
 use serde::{Deserialize, Serialize};
@@ -65,12 +63,6 @@ pub trait Subject {
     /// not resolve. For particles, this part is in the null space of the map to the grid. The
     /// computation may cost as much as tens of steps. `None` by default.
     fn null_space_energy(&self) -> Option<f64> {
-        None
-    }
-
-    /// Returns the energy changes of each stage, summed over the steps so far; `None` by default,
-    /// and before the first step.
-    fn energy_balance(&self) -> Option<EnergyBalance> {
         None
     }
 }

@@ -20,7 +20,6 @@ fn figure<'a>(figure: RunFigure) -> TrialColumn<'a> {
         let value = figure.of(trial);
         let text = match figure {
             _ if value.is_nan() => "-".to_owned(),
-            RunFigure::LedgerGap if value < ROUNDING => format!("< {ROUNDING:e}"),
             _ => scientific(value),
         };
         Cell::new(text, number(value))
@@ -39,9 +38,7 @@ fn steps<'a>() -> TrialColumn<'a> {
 }
 
 pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
-    // A separate table lists the other energies of the ledger, in joules.
-    let is_here = |one: &&RunFigure| !one.is_of_ledger() || **one == RunFigure::LedgerGap;
-    let figures = study.figures.iter().filter(is_here).map(|one| figure(*one));
+    let figures = study.figures.iter().map(|one| figure(*one));
     let columns = [verdict(), steps()].into_iter().chain(figures);
     let columns = columns.map(|column| column.within(|row: &StabilityRow| row.trial.as_ref()));
     std::iter::once(swept(study)).chain(columns).collect()
@@ -106,9 +103,7 @@ pub(crate) fn json_columns(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
 }
 
 fn run(trial: &Trial) -> Value {
-    let is_measured = |one: &&RunFigure| !one.is_of_ledger() || trial.ledger.is_some();
-    let figures: Vec<_> =
-        RunFigure::ALL.iter().filter(is_measured).map(|one| figure(*one)).collect();
+    let figures: Vec<_> = RunFigure::ALL.iter().map(|one| figure(*one)).collect();
     let columns = [
         verdict(),
         TrialColumn::json("why", "reason why the run stopped early", |trial| trial.why.clone()),
@@ -128,15 +123,6 @@ fn confirmations(critical: &Critical) -> Value {
 
 pub(crate) fn limit_of(row: &StabilityRow) -> Option<StabilityLimit> {
     row.critical.as_ref().and_then(Critical::limit)
-}
-
-/// Energies below this fraction of the summed magnitudes of a ledger count as rounding errors.
-const ROUNDING: f64 = 1e-13;
-
-/// Formats an energy (J) of a ledger whose magnitudes sum to `size` (J). A rounding error becomes
-/// `0`.
-pub(crate) fn ledger_text(energy: f64, size: f64) -> String {
-    if energy.abs() <= ROUNDING * size { "0".to_owned() } else { scientific(energy) }
 }
 
 /// Formats a limit with four decimals. A limit outside the searched range is given as a bound.

@@ -1,11 +1,10 @@
 //! Tables of a stability study.
 
-use super::table::{Table, merged_blocks};
-use crate::report::columns::stability::{self, ledger_text, limit_of, limit_text};
+use super::table::Table;
+use crate::report::columns::stability::{self, limit_of, limit_text};
 use crate::report::columns::with_case;
 use crate::report::figure::sweep::swept_map;
 use crate::report::figure::{Map, MapField};
-use crate::subject::{EnergyBalance, LedgerStage};
 use crate::verify::{CaseOutcome, StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
 /// Returns the map of all stability limits of a suite; `None` if no study searches for one.
@@ -32,7 +31,6 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
         studies.iter().partition(|(_, study)| study.sought.is_some());
     limits(lines, &seeking);
     trials(lines, &others);
-    ledgers(lines, &others);
 }
 
 /// Returns remarks about values without a run, and about runs that stopped early.
@@ -54,41 +52,6 @@ fn trials(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let tried: Vec<NamedRow<'_>> = rows.filter(|(_, row)| row.trial.is_some()).collect();
     lines.push(String::new());
     lines.extend(Table::new(&with_case(stability::trials(first)), tried).merged().lines());
-}
-
-/// Adds the energy ledgers: a block of rows for each case, a row for each stage, and a column for
-/// each value of the swept parameter. Stages whose entries are all rounding errors have no row.
-fn ledgers(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
-    let Some((_, first)) = studies.first() else { return };
-    let values = first.rows.iter().map(|row| format!("{}={}", first.swept, row.value));
-    let headings = ["case", "energy (J)"].map(str::to_owned).into_iter().chain(values).collect();
-    let blocks = studies.iter().filter_map(|(name, study)| {
-        let balance = |row: &StabilityRow| row.trial.as_ref().and_then(|trial| trial.ledger);
-        let balances: Option<Vec<EnergyBalance>> = study.rows.iter().map(balance).collect();
-        Some(((*name).to_owned(), ledger(&balances?)))
-    });
-    let rows = merged_blocks(blocks);
-    if !rows.is_empty() {
-        lines.push(String::new());
-        lines.extend(Table::of_cells(headings, rows).flush_left(&["energy (J)"]).lines());
-    }
-}
-
-fn ledger(balances: &[EnergyBalance]) -> Vec<Vec<String>> {
-    let row = |head: String, value: &dyn Fn(&EnergyBalance) -> f64| {
-        let cells = balances.iter().map(|balance| ledger_text(value(balance), balance.size()));
-        std::iter::once(head).chain(cells).collect::<Vec<String>>()
-    };
-    let stages = LedgerStage::ALL.iter().map(|stage| {
-        row(stage.name().replace('_', " "), &|balance: &EnergyBalance| balance.entry(*stage))
-    });
-    let stages = stages.filter(|row| row[1..].iter().any(|cell| cell != "0"));
-    let sums = [
-        row("transfer gain".to_owned(), &EnergyBalance::transfer_gain),
-        row("stress work error".to_owned(), &EnergyBalance::stress_work_error),
-        row("change".to_owned(), &EnergyBalance::change),
-    ];
-    stages.chain(sums).collect()
 }
 
 fn limits(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {

@@ -181,7 +181,7 @@ type CaseRows = (String, Vec<Vec<String>>);
 
 /// Puts the name of the block in front of its rows. Equal blocks are merged; if most are equal and
 /// their combined name is too long, they are called `all (other) cases`, and stand last.
-pub(crate) fn merged_blocks(blocks: impl Iterator<Item = CaseRows>) -> Vec<Vec<String>> {
+fn merged_blocks(blocks: impl Iterator<Item = CaseRows>) -> Vec<Vec<String>> {
     let mut groups = grouped(blocks.map(|(name, block)| (block, name)));
     let names: Vec<&String> = groups.iter().flat_map(|(_, names)| names).collect();
     let is_most = |names: &[String], all: usize| 2 * names.len() > all && !is_short(names);

@@ -48,7 +48,7 @@ use crate::schema;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
 use rstest::rstest;
-use samples::{BAR, COLUMN, CUBE, FORCE, LEDGER, PLATE, PULLED, SWEPT};
+use samples::{BAR, COLUMN, CUBE, FORCE, PLATE, PULLED, SWEPT};
 
 /// Marks the position at which an error must point.
 const HERE: char = '▸';
@@ -104,7 +104,6 @@ fn points(shown: &str, line: usize, column: usize, excerpt: &str) {
 #[case::pulled(PULLED)]
 #[case::force(FORCE)]
 #[case::swept(SWEPT)]
-#[case::ledger(LEDGER)]
 fn unchanged_samples_are_valid(#[case] text: &str) {
     if let Err(diagnostic) = load(text) {
         panic!("{diagnostic}");

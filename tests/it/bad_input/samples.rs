@@ -115,7 +115,3 @@ pub(super) const FORCE: &str = include_str!("../../../verification/the-talk/grid
 
 /// A bar whose Courant limit is determined.
 pub(super) const SWEPT: &str = include_str!("../../../verification/stability/tiny-nodal-mass.yaml");
-
-/// A stability study whose runs keep an energy ledger.
-pub(super) const LEDGER: &str =
-    include_str!("../../../verification/conservation/energy-of-terminal-velocity.yaml");

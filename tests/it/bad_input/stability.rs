@@ -1,6 +1,6 @@
 //! Stability studies: invalid sweeps, limits and expectations.
 
-use super::{Edits, LEDGER, SWEPT, refused};
+use super::{Edits, SWEPT, refused};
 use rstest::rstest;
 
 #[rstest]
@@ -68,6 +68,9 @@ use rstest::rstest;
     ],
     &["unknown figure `energie`", "did you mean `energy`?"]
 )]
+#[case::with_a_figure_misspelt(
+    &[("methods:", "show: [▸energie]\nmethods:")], &["did you mean `energy`?"]
+)]
 #[case::of_an_fem(
     &[("- mpm: {basis: linear, transfer: [flip, pic, apic], scheme: [usl, usf, musl]}", "- ▸fem: {element: linear, mass: lumped}")],
     &["a stability study supports MPM only"]
@@ -123,6 +126,10 @@ const HALVES: [(&str, &str); 2] = [
 #[case::with_a_null_space(
     ("methods:", "show: [▸null_share]\nmethods:"), "`null_share` is supported for a single body only"
 )]
+#[case::with_an_expected_null_space(
+    ("critical: {above: 1.7, below: 1.8}", "figures: {null_share: ▸{below: 1}}"),
+    "`null_share` is supported for a single body only"
+)]
 #[case::in_contact_and_frozen(
     ("frozen: true", "▸frozen: true"), "`frozen` is not supported with contact"
 )]
@@ -135,81 +142,4 @@ fn a_stability_study_of_several_bodies(#[case] place: (&str, &str), #[case] word
         edits.push(("dt: \"C*h/c\"", "dt: \"C*h/c*d/d\""));
     }
     refused(SWEPT, &edits, &[words]);
-}
-
-/// The falling bar as a plate.
-const PLATE: [(&str, &str); 5] = [
-    ("dimension: 1", "dimension: 2"),
-    ("from: [0], to: [4]", "from: [0, 0], to: [4, 4]"),
-    ("initial_velocity: [\"v\"]", "initial_velocity: [\"v\", 0]"),
-    ("gravity: [\"g\"]", "gravity: [\"g\", 0]"),
-    ("ppc: 2", "ppc: 4"),
-];
-
-#[rstest]
-#[case::of_two_bodies(
-    &[
-        (
-            "  body: {box: {from: [0], to: [4]}}\n",
-            "  bodies:\n    - body: {box: {from: [0], to: [2]}}\n      material: {neo_hookean: {young: 100, poisson: 0, density: \"m/4\"}}\n    - body: {box: {from: [2], to: [4]}}\n      material: {neo_hookean: {young: 100, poisson: 0, density: \"m/4\"}}\n",
-        ),
-        ("  material: {neo_hookean: {young: 100, poisson: 0, density: \"m/4\"}}\n  boundary", "  boundary"),
-        ("  initial_velocity: [\"v\"]\n", ""),
-        ("show: [ledger_gap]", "show: [▸ledger_gap]"),
-    ],
-    &["`ledger_gap` is supported for a single body only, but the scene lists `bodies`"]
-)]
-#[case::whose_limit_is_sought(
-    &[("show: [ledger_gap]", "critical: {parameter: alpha, from: 1, to: 4}\nshow: [▸ledger_gap]")],
-    &["`ledger_gap` is not supported with `critical`"]
-)]
-#[case::of_a_law_without_energy(
-    &[
-        ("neo_hookean: {young: 100, poisson: 0", "jaumann: {young: 100, poisson: 0"),
-        ("show: [ledger_gap]", "show: [▸ledger_gap]"),
-    ],
-    &["the law `jaumann`"]
-)]
-#[case::that_is_only_expected(
-    &[
-        ("neo_hookean: {young: 100, poisson: 0", "jaumann: {young: 100, poisson: 0"),
-        ("show: [ledger_gap]\n", ""),
-        ("      ledger_gap: {", "      ▸ledger_gap: {"),
-    ],
-    &["the law `jaumann`"]
-)]
-#[case::of_a_transfer_over_cells(
-    &[("transfer: [flip, apic]", "transfer: ▸[flip, tls]"), ("cpdi, ", "")],
-    &["not supported with the transfer `tls`, which integrates over cells"]
-)]
-#[case::misspelt(
-    &[("show: [ledger_gap]", "show: [▸ledger_gaps]")], &["did you mean `ledger_gap`?"]
-)]
-#[case::in_load_steps(
-    &[("scheme: [usl, musl]", "scheme: ▸quasi_static"), ("transfer: [flip, apic]\n      ", "")],
-    &["`quasi_static` has none"]
-)]
-#[case::in_single_precision(
-    &[("scheme: [usl, musl]", "scheme: [usl, musl]\n      precision: ▸single")],
-    &["a stability study needs double precision"]
-)]
-fn a_study_with_an_energy_ledger(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
-    refused(LEDGER, edits, words);
-}
-
-#[rstest]
-#[case::of_revolution(
-    &[
-        ("  body: {box", "  plane: axisymmetric\n  body: {box"),
-        ("{left: periodic, right: periodic}", "{left: roller, bottom: roller, top: roller}"),
-        ("show: [ledger_gap]", "show: [▸ledger_gap]"),
-    ],
-    "no entry for the hoop stress"
-)]
-#[case::of_averaged_volume_ratios(
-    &[("scheme: [usl, musl]", "scheme: [usl, musl]\n      volume: ▸averaged"), ("cpdi, ", "")],
-    "does not derive from a stored energy"
-)]
-fn a_plate_with_an_energy_ledger(#[case] edits: Edits<'_>, #[case] words: &str) {
-    refused(LEDGER, &[&PLATE, edits].concat(), &[words]);
 }

@@ -7,7 +7,6 @@
 //! the entry. How to add a measured value: `docs/exercises/figure.md`.
 
 use crate::verify::{LevelOutcome, Trial, larger};
-use mpm_subject::LedgerStage;
 use mpm_subject::named;
 
 /// Calls the macro `declare` with every measured value that a convergence study can bound. The
@@ -199,50 +198,6 @@ run_figures! {
     Displacement = "displacement", "largest displacement (m)", |trial| trial.displacement;
     /// Number of steps.
     Steps = "steps", "steps", |trial| trial.steps as f64;
-    /// Difference between the sum of the entries of the energy ledger and the change of the energy,
-    /// divided by the sum of the magnitudes of the entries.
-    LedgerGap = "ledger_gap", "ledger gap", |trial| trial.ledger.map_or(f64::NAN, |ledger| ledger.gap());
-    /// Energy (J) gained by the maps between particles and grid, the mass matrix and walls.
-    TransferGain = "transfer_gain", "transfer gain (J)",
-        |trial| trial.ledger.map_or(f64::NAN, |ledger| ledger.transfer_gain());
-    /// Work of the stress on the particles minus the work of the internal forces on the grid (J).
-    StressWorkError = "stress_work_error", "stress work error (J)",
-        |trial| trial.ledger.map_or(f64::NAN, |ledger| ledger.stress_work_error());
-    /// Energy (J) gained as particle velocities are mapped to the grid.
-    ParticleToGrid = "particle_to_grid", "particle to grid (J)",
-        |trial| ledger_entry(trial, LedgerStage::ParticleToGrid);
-    /// Energy (J) gained because nodal velocities differ from momentum over lumped mass.
-    NodalVelocity = "nodal_velocity", "nodal velocity (J)",
-        |trial| ledger_entry(trial, LedgerStage::NodalVelocity);
-    /// Work of the internal forces on the grid (J).
-    InternalForce = "internal_force", "internal force (J)",
-        |trial| ledger_entry(trial, LedgerStage::InternalForce);
-    /// Work of the external forces on the grid (J).
-    ExternalForce = "external_force", "external force (J)",
-        |trial| ledger_entry(trial, LedgerStage::ExternalForce);
-    /// Energy (J) gained because accelerations differ from force over lumped mass.
-    Constraints = "constraints", "constraints (J)",
-        |trial| ledger_entry(trial, LedgerStage::Constraints);
-    /// Energy (J) gained as nodal velocities are mapped to particles.
-    GridToParticle = "grid_to_particle", "grid to particle (J)",
-        |trial| ledger_entry(trial, LedgerStage::GridToParticle);
-    /// Energy (J) gained because particle velocities differ from the velocities mapped from the
-    /// grid.
-    ParticleVelocity = "particle_velocity", "particle velocity (J)",
-        |trial| ledger_entry(trial, LedgerStage::ParticleVelocity);
-    /// Energy (J) gained by effects on the velocities of particles.
-    EffectsOnVelocity = "effects", "effects (J)",
-        |trial| ledger_entry(trial, LedgerStage::Effects);
-    /// Energy (J) gained as particles move and the inertia of their affine fields changes.
-    Motion = "motion", "motion (J)", |trial| ledger_entry(trial, LedgerStage::Motion);
-    /// Gain of the stored energy of the material (J).
-    StoredEnergy = "stored_energy", "stored energy (J)",
-        |trial| ledger_entry(trial, LedgerStage::Stored);
-}
-
-/// Returns the sum of the entries (J) of a stage in the ledger of a run; NaN without a ledger.
-fn ledger_entry(trial: &Trial, stage: LedgerStage) -> f64 {
-    trial.ledger.map_or(f64::NAN, |ledger| ledger.entry(stage))
 }
 
 impl RunFigure {
@@ -254,11 +209,6 @@ impl RunFigure {
     /// Whether the value concerns the null space of the map to the grid, computed on request only.
     pub fn is_of_null_space(self) -> bool {
         matches!(self, Self::NullShare | Self::LargestNullShare)
-    }
-
-    /// Whether the value is part of the energy ledger, which is recorded only on request.
-    pub fn is_of_ledger(self) -> bool {
-        self as usize >= Self::LedgerGap as usize
     }
 }
 

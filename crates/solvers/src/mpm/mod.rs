@@ -72,7 +72,6 @@ pub use transfer::{
 pub use self::{
     analysis::crossing_force::{StressedCells, force_at_node},
     analysis::dispersion::{WaveMethod, WaveStep, WaveTransfer},
-    analysis::energy_ledger::kinetic_energy,
     analysis::stable_time_step::simplest_with_same_response,
     analysis::wave_symbols::{Spline, WaveSymbols},
     boundary::{Advance, Side, VelocityField},

@@ -150,7 +150,6 @@ impl TrialMonitor {
             checkerboard: checkerboard(&self.samples),
             stress: largest_length(&self.samples.stress, d * d) / self.scales.modulus,
             displacement: largest_length(&self.samples.displacement, d),
-            ledger: subject.energy_balance(),
         }
     }
 }

@@ -1,6 +1,5 @@
 //! Results of a trial: verdict and measured values, and the scales of these values.
 
-use mpm_subject::EnergyBalance;
 use mpm_subject::named;
 use serde::{Deserialize, Serialize};
 
@@ -80,6 +79,4 @@ pub struct Trial {
     pub stress: f64,
     /// Largest displacement (m) at the end.
     pub displacement: f64,
-    /// Changes of the energy by each stage of a step, summed over the run, if recorded.
-    pub ledger: Option<EnergyBalance>,
 }

@@ -114,23 +114,6 @@ pub fn perturbable(
     })
 }
 
-/// Creates an MPM solver with an energy ledger, for a scene of one body.
-///
-/// # Errors
-/// The reason why the solver cannot be created.
-pub fn with_ledger(
-    scene: SceneInput<'_>,
-    method: MpmMethod,
-) -> Result<Box<dyn Perturbable>, SubjectError> {
-    with_dimension!(scene.grid.dimension(), D => {
-        let mut setups = setups::<D>(scene, method)?;
-        let (Some(one), true) = (setups.pop(), setups.is_empty()) else {
-            return Err("an energy ledger is that of one body with an MPM method".into());
-        };
-        Ok(Box::new(Solver::new(one)?.with_ledger(method.basis)))
-    })
-}
-
 /// Creates the initial particles of each body; `disturb` may modify the state of each body. The law
 /// of a body computes the initial stress from the initial deformation.
 ///

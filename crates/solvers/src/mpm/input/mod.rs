@@ -11,7 +11,7 @@ mod wall;
 
 pub use body::{BodyInput, ShapeInput};
 pub use create::{
-    initial_particles, initial_stress, perturbable, profile, stable_time_step, subject, with_ledger,
+    initial_particles, initial_stress, perturbable, profile, stable_time_step, subject,
 };
 pub use effect::EffectInput;
 pub use state::{InitialState, ParticleTable};

@@ -7,13 +7,12 @@
 //! state of effects and conditions, and reference positions remain in double precision.
 
 use super::setup::Setup;
-use super::solver::{CustomStep, Solver};
+use super::solver::Solver;
 use super::subject::affine_state_mut;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::step::schedule::{Pass, StepSchedule};
-use mpm_subject::Failure;
+use mpm_subject::{Failure, Precision};
 
 impl<const D: usize> Solver<D> {
     /// Creates a solver at t = 0 whose state is rounded to single precision, initially and after
@@ -24,54 +23,26 @@ impl<const D: usize> Solver<D> {
     #[inline(never)]
     pub fn in_single_precision(mut setup: Setup<D>) -> Result<Self, Failure> {
         round_particles(&mut setup.particles);
-        let mut solver = Self { custom_step: Some(Box::new(RoundedStep)), ..Self::new(setup)? };
-        round_state(&mut solver);
+        let mut solver = Self { precision: Precision::Single, ..Self::new(setup)? };
+        solver.round_to_precision();
         Ok(solver)
     }
-}
 
-/// A step that rounds the state after each pass.
-struct RoundedStep;
-
-impl<const D: usize> CustomStep<D> for RoundedStep {
-    fn step(&mut self, solver: &mut Solver<D>, dt: f64) -> Result<(), Failure> {
-        let StepSchedule { opening, passes } = solver.schedule.clone();
-        if !solver.started {
-            solver.open(dt);
-            round_state(solver);
-            run_each(solver, &opening, dt)?;
-            solver.opened(dt);
-            round_state(solver);
+    /// Rounds the state of particles, nodes and transfer if the solver is in single precision.
+    pub(super) fn round_to_precision(&mut self) {
+        if self.precision == Precision::Double {
+            return;
         }
-        run_each(solver, &passes, dt)?;
-        solver.time += dt;
-        Ok(())
+        round_vectors(&mut self.advected);
+        let Setup { particles, grid, transfer, .. } = &mut self.setup;
+        round_particles(particles);
+        let Grid { mass, velocity, force, acceleration, .. } = grid;
+        round(mass);
+        for field in [velocity, force, acceleration] {
+            round_vectors(field);
+        }
+        round_matrices(affine_state_mut(transfer.as_mut()));
     }
-}
-
-fn run_each<const D: usize>(
-    solver: &mut Solver<D>,
-    passes: &[Pass],
-    dt: f64,
-) -> Result<(), Failure> {
-    for pass in passes {
-        solver.run(*pass, dt)?;
-        round_state(solver);
-    }
-    Ok(())
-}
-
-/// Rounds the state of particles, nodes and transfer.
-fn round_state<const D: usize>(solver: &mut Solver<D>) {
-    round_vectors(&mut solver.advected);
-    let Setup { particles, grid, transfer, .. } = &mut solver.setup;
-    round_particles(particles);
-    let Grid { mass, velocity, force, acceleration, .. } = grid;
-    round(mass);
-    for field in [velocity, force, acceleration] {
-        round_vectors(field);
-    }
-    round_matrices(affine_state_mut(transfer.as_mut()));
 }
 
 /// Rounds all columns except the reference positions, which only identify particles.

@@ -17,7 +17,7 @@ use crate::mpm::kernel::contract::Tally;
 use crate::mpm::material::{Material, StressUpdate};
 use crate::mpm::scheme::Stage;
 use crate::mpm::transfer::{Transfer, g2p};
-use mpm_subject::{Column, EnergyBalance, Failure, Profile};
+use mpm_subject::{Column, Failure, Precision, Profile};
 
 /// The original MPM for one body, with the state that changes from step to step.
 pub struct Solver<const D: usize> {
@@ -36,19 +36,8 @@ pub struct Solver<const D: usize> {
     pub(in crate::mpm) advected: Vec<Vector<D>>,
     /// Arrays for averaged volume ratios; `None` if the method does not average volume ratios.
     pub(in crate::mpm) volume_average: Option<VolumeAverage<D>>,
-    /// Replacement of the default step, if any.
-    pub(in crate::mpm) custom_step: Option<Box<dyn CustomStep<D>>>,
-}
-
-/// A step that observes or changes the state of a solver after its passes.
-pub(in crate::mpm) trait CustomStep<const D: usize>: Send {
-    /// Performs [`Subject::step`](mpm_subject::Subject::step) of `solver`.
-    fn step(&mut self, solver: &mut Solver<D>, dt: f64) -> Result<(), Failure>;
-
-    /// Returns the energy changes of the steps so far, if the steps record them.
-    fn energy_balance(&self) -> Option<EnergyBalance> {
-        None
-    }
+    /// In single precision, the state is rounded after each pass.
+    pub(in crate::mpm) precision: Precision,
 }
 
 impl<const D: usize> Solver<D> {
@@ -100,7 +89,7 @@ impl<const D: usize> Solver<D> {
             cell_tracker,
             advected: vec![zeros(); setup.particles.len()],
             volume_average,
-            custom_step: None,
+            precision: Precision::Double,
             setup,
         })
     }

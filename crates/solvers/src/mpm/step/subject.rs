@@ -15,8 +15,7 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{Affine, G2pRequest};
 use crate::mpm::transfer::{Transfer, kick};
 use mpm_subject::{
-    BodyFields, EnergyBalance, Failure, Perturbable, Reaction, RunCounters, Samples, Start,
-    Subject, Totals,
+    BodyFields, Failure, Perturbable, Reaction, RunCounters, Samples, Start, Subject, Totals,
 };
 
 impl<const D: usize> Solver<D> {
@@ -26,51 +25,37 @@ impl<const D: usize> Solver<D> {
     /// # Errors
     /// The errors of [`Subject::step`].
     pub fn step_by_pass(&mut self, dt: f64, after: &mut dyn FnMut(String)) -> Result<(), Failure> {
-        self.begin(dt, &mut |_, pass| after(pass.name()))?;
-        self.finish(dt, &mut |_, pass| after(pass.name()))
+        self.step_observed(dt, &mut |pass| after(pass.name()))
     }
 
-    /// Runs the passes before the first step of length `dt` (s). These passes do not run again.
-    pub(in crate::mpm) fn begin(
-        &mut self,
-        dt: f64,
-        after: &mut dyn FnMut(&Self, Pass),
-    ) -> Result<(), Failure> {
+    fn step_observed(&mut self, dt: f64, after: &mut dyn FnMut(Pass)) -> Result<(), Failure> {
+        let StepSchedule { opening, passes } = self.schedule.clone();
         if !self.started {
-            let opening = self.schedule.opening.clone();
             self.open(dt);
+            self.round_to_precision();
             self.run_each(&opening, dt, after)?;
             self.opened(dt);
+            self.round_to_precision();
         }
-        Ok(())
-    }
-
-    /// Runs the passes of a step of length `dt` (s) after [`Self::begin`], and calls `after` with
-    /// the solver after each pass.
-    pub(in crate::mpm) fn finish(
-        &mut self,
-        dt: f64,
-        after: &mut dyn FnMut(&Self, Pass),
-    ) -> Result<(), Failure> {
-        let passes = self.schedule.passes.clone();
         self.run_each(&passes, dt, after)?;
         self.time += dt;
         Ok(())
     }
 
     pub(in crate::mpm) fn run_all(&mut self, passes: &[Pass], dt: f64) -> Result<(), Failure> {
-        self.run_each(passes, dt, &mut |_, _| {})
+        self.run_each(passes, dt, &mut |_| {})
     }
 
     fn run_each(
         &mut self,
         passes: &[Pass],
         dt: f64,
-        after: &mut dyn FnMut(&Self, Pass),
+        after: &mut dyn FnMut(Pass),
     ) -> Result<(), Failure> {
         for pass in passes {
             self.run(*pass, dt)?;
-            after(self, *pass);
+            self.round_to_precision();
+            after(*pass);
         }
         Ok(())
     }
@@ -115,13 +100,7 @@ impl<const D: usize> Solver<D> {
 impl<const D: usize> Subject for Solver<D> {
     #[inline(never)]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        if let Some(mut step) = self.custom_step.take() {
-            let result = step.step(self, dt);
-            self.custom_step = Some(step);
-            return result;
-        }
-        self.begin(dt, &mut |_, _| {})?;
-        self.finish(dt, &mut |_, _| {})
+        self.step_observed(dt, &mut |_| {})
     }
 
     #[inline(never)]
@@ -151,10 +130,6 @@ impl<const D: usize> Subject for Solver<D> {
 
     fn null_space_energy(&self) -> Option<f64> {
         Some(Self::null_space_energy(self))
-    }
-
-    fn energy_balance(&self) -> Option<EnergyBalance> {
-        self.custom_step.as_ref()?.energy_balance()
     }
 
     fn counters(&self) -> RunCounters {

@@ -5,7 +5,6 @@ mod gimp;
 mod heat;
 mod kernel;
 mod laws;
-mod ledger;
 mod null_space;
 mod passes;
 mod quasi_static;

@@ -77,12 +77,3 @@ pub(crate) fn perturbable(
 ) -> Result<Box<dyn Perturbable>, SubjectError> {
     input::perturbable(scene_input(bodies, level)?, dynamic(method)?)
 }
-
-/// Creates an MPM solver with an energy ledger. `bodies` must contain exactly one body.
-pub(crate) fn with_ledger(
-    bodies: Vec<Body<'_>>,
-    method: Method,
-    level: LevelPlan,
-) -> Result<Box<dyn Perturbable>, SubjectError> {
-    input::with_ledger(scene_input(bodies, level)?, dynamic(method)?)
-}

@@ -23,7 +23,6 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
         (setup.frozen, "a configuration that no step changes"),
         (setup.dt.len() > 1, "steps of two lengths"),
         (setup.scales.null_space, "the energy in the null space"),
-        (setup.ledger, "the energy of each stage of a step"),
     ] {
         if is_needed {
             needs.beyond.push(what);

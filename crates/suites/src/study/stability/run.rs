@@ -4,7 +4,7 @@ use super::handed;
 use super::handed::{bodies, perturb};
 use crate::study::convergence::time_steps::ROUNDS;
 use crate::study::kind::RunContext;
-use crate::study::setup::dispatch::{perturbable, stable_time_step_of, with_ledger};
+use crate::study::setup::dispatch::{perturbable, stable_time_step_of};
 use crate::study::time_series::ShownRun;
 use crate::subject::{Perturbable, Subject, SubjectError};
 use crate::suite::model::method::Method;
@@ -78,8 +78,7 @@ impl CaseRun<'_> {
 
     fn subject(&self, setup: &RunSetup) -> Result<Box<dyn Perturbable>, SubjectError> {
         let all = bodies(setup, setup.scene.each());
-        let build = if setup.ledger { with_ledger } else { perturbable };
-        let mut subject = build(all, self.case.method, setup.level)?;
+        let mut subject = perturbable(all, self.case.method, setup.level)?;
         if setup.frozen {
             subject.fix_configuration();
         }

@@ -73,7 +73,6 @@ pub(crate) struct RunSetup {
     pub(crate) steps: u64,
     pub(crate) full_steps: u64,
     pub(crate) frozen: bool,
-    pub(crate) ledger: bool,
     pub(crate) perturb: f64,
     pub(crate) scales: Scales,
 }

@@ -1,7 +1,6 @@
 //! Compiles a stability study: a parameter is swept, and every run gets a verdict.
 
 pub(crate) mod expect;
-mod requested;
 pub(crate) mod setup;
 
 use crate::mpm::input::MpmMethod;
@@ -10,10 +9,9 @@ use crate::suite::compile::expect::assign;
 use crate::suite::compile::run::methods::{NamedMethod, methods};
 use crate::suite::evaluator::{Evaluator, SuitePath, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilityExpectSpec, StabilitySpec};
+use crate::suite::model::Scene;
 use crate::suite::model::method::Method;
-use crate::suite::model::stability::{
-    CompileSetup, RowExpectations, RunSetup, StabilityCase, StabilityPlan,
-};
+use crate::suite::model::stability::{CompileSetup, RowExpectations, StabilityCase, StabilityPlan};
 use crate::suite::yaml::Diagnostic;
 use setup::{SetupTemplate, setup};
 use std::sync::Arc;
@@ -26,8 +24,8 @@ pub(crate) fn plan(
 ) -> Result<StabilityPlan, Diagnostic> {
     let template = SetupTemplate { source: evaluator.source().clone(), spec: spec.clone() };
     // This evaluation, with the parameter values of the suite, also marks the parameters as used.
-    let base = setup(evaluator, spec)?;
-    let methods = time_stepping_methods(evaluator, &spec.methods, &base)?;
+    let scene = setup(evaluator, spec)?.scene;
+    let methods = time_stepping_methods(evaluator, &spec.methods, &scene)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;
     // Each swept value must give a valid setup.
@@ -126,7 +124,7 @@ fn sought(
 fn time_stepping_methods(
     evaluator: &Evaluator<'_>,
     specs: &[MethodSpec],
-    RunSetup { scene, ledger, .. }: &RunSetup,
+    scene: &Scene,
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
     for (i, spec) in specs.iter().enumerate() {
         let path = evaluator.top("methods").then(i);
@@ -160,9 +158,6 @@ fn time_stepping_methods(
                 let help = "list compatible settings in separate entries of `methods`";
                 path.diagnostic(&reason.to_string()).with_help(help)
             })?;
-        }
-        if *ledger {
-            requested::refuse_unledgered(&path, &named.method)?;
         }
     }
     Ok(methods)

@@ -1,6 +1,5 @@
 //! Computes the set-up of a run from parameter values. Any parameter can be swept.
 
-use super::requested;
 use crate::suite::compile::check::levels;
 use crate::suite::compile::run::refine::{stable_share, step_formula};
 use crate::suite::compile::scene;
@@ -11,7 +10,7 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, ParameterValues, RunSetup};
 use crate::suite::scene::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Source};
-use crate::verify::Scales;
+use crate::verify::{RunFigure, Scales};
 
 /// Default initial perturbation amplitude for a run in which the particles do not move.
 const PERTURBATION: f64 = 1e-9;
@@ -99,7 +98,6 @@ pub(crate) fn setup(
         steps,
         full_steps: full_steps?,
         frozen: spec.run.frozen,
-        ledger: requested::ledger(evaluator, spec, &scene)?,
         perturb: perturbation(evaluator, spec)?,
         scales: scales(evaluator, spec, &scene)?,
         scene,
@@ -217,6 +215,35 @@ fn scales(
     }
     let speed = scene.fastest_wave();
     let centred = scene.faces.iter().all(|face| !face.hold.is_held());
-    let null_space = requested::null_space(evaluator, spec, scene)?;
+    let null_space = null_space(evaluator, spec, scene)?;
     Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
+}
+
+/// Whether a measured value in `show` or `expect` needs the null space of the grid, which runs
+/// compute only on request. Refuses several bodies, for which the null space is not implemented.
+fn null_space(
+    evaluator: &Evaluator<'_>,
+    spec: &StabilitySpec,
+    scene: &Scene,
+) -> Result<bool, Diagnostic> {
+    let shown = spec.show.iter().enumerate();
+    let shown = shown.map(|(i, figure)| (evaluator.top("show").then(i), *figure));
+    let expected = spec.expect.iter().enumerate().flat_map(|(i, entry)| {
+        let path = evaluator.top("expect").then(i).then("figures");
+        let named =
+            entry.figures.as_slice().iter().filter_map(|(name, _)| RunFigure::by_name(name));
+        named.map(move |figure| (path.then(figure.name()), figure))
+    });
+    let Some((path, figure)) = shown.chain(expected).find(|(_, figure)| figure.is_of_null_space())
+    else {
+        return Ok(false);
+    };
+    if scene.bodies.is_empty() {
+        return Ok(true);
+    }
+    let message = format!(
+        "`{}` is supported for a single body only, but the scene lists `bodies`",
+        figure.name()
+    );
+    Err(path.diagnostic(&message))
 }
