@@ -3,7 +3,7 @@
 //! `cargo bench --bench scaling` measures up to 1e6 particles, and up to 1e7 with `MPM_BENCH=full`
 //! (about 4 GB); `-- FILE.svg` also writes a figure. For each size the minimum time is used,
 //! because other processes can only slow down a pass. Cache sizes are visible as steps. At the end,
-//! particles in random order are measured, and the cost of sorting them before ten steps.
+//! particles in random order are measured.
 
 #[path = "common/clock.rs"]
 mod clock;
@@ -21,7 +21,6 @@ use one_thread::one_thread;
 use random::Random;
 use scene::{Method, Order, total};
 use std::hint::black_box;
-use std::time::Instant;
 
 /// Returns the time per particle (ns) of P2G and of G2P.
 fn measure<const D: usize>(method: (BasisName, TransferName), count: usize) -> [f64; 2] {
@@ -76,19 +75,13 @@ fn both_passes<const D: usize>(
 fn unsorted<const D: usize>(name: (BasisName, TransferName), count: usize) {
     let make = |order: Order| Method::<D>::new(name, order, count);
     let sorted = both_passes(&mut make(Order::Sorted));
-    let mut scene = make(Order::Shuffled);
-    let shuffled = both_passes(&mut scene);
-    let start = Instant::now();
-    scene.2.sort_by_cell(&scene.1);
-    let sort = start.elapsed().as_secs_f64();
-    let after = both_passes(&mut scene);
+    let shuffled = both_passes(&mut make(Order::Shuffled));
     let names = format!("{D}d {} {}", name.0.name(), name.1.name());
     println!(
-        "{names}, {count:e} particles: {} {:.2} times {}; sorted first, for ten steps, {:.2} times",
+        "{names}, {count:e} particles: {} {:.2} times {}",
         Order::Shuffled.name(),
         shuffled / sorted,
-        Order::Sorted.name(),
-        (sort + 10.0 * after) / (10.0 * sorted)
+        Order::Sorted.name()
     );
 }
 

@@ -1,10 +1,9 @@
-//! Seeding: filling bodies with particles, and sorting particles by cell.
+//! Seeding: filling bodies with particles.
 
 use super::foundation::algebra::{Matrix, Vector, det};
 use super::foundation::particles::{Block, Particles};
 
 pub(crate) mod quadrilateral;
-pub(crate) mod sort_by_cell;
 
 /// A part of a body that one particle represents.
 #[derive(Debug, Clone, Copy, PartialEq)]
