@@ -172,7 +172,7 @@ pub trait Patch<const D: usize>: Copy {
     /// Stores this patch in lane `lane` of a batch.
     fn put<W: PatchShape>(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, W>);
 
-    /// Returns the moments of the weights.
+    /// Returns the moments of the weights, with the second moment about the particle.
     fn weight_moments(&self) -> WeightMoments<D>;
 
     /// Returns mean (m) and variance (m^2) of `x_i - x_p` along each axis, for the only patch of a

@@ -28,9 +28,9 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     #[inline(always)]
     fn weight_moments(&self) -> WeightMoments<D> {
         let moments: [[f64; 3]; D] = array([0.0; 3], |axis| self.0[axis].moments());
-        let mut weight_moments = WeightMoments { first: zeros(), second: zeros() };
+        let mut weight_moments = WeightMoments::zero();
         for i in 0..D {
-            weight_moments.first[i] = product(&moments, |axis| usize::from(axis == i));
+            weight_moments.mean[i] = product(&moments, |axis| usize::from(axis == i));
             for j in 0..D {
                 let order = |axis| usize::from(axis == i) + usize::from(axis == j);
                 weight_moments.second[(i, j)] = product(&moments, order);

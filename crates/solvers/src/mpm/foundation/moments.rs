@@ -8,15 +8,6 @@ use mpm_subject::Column;
 /// basis.
 pub(in crate::mpm) const SMALLEST: f64 = 1e-13;
 
-/// Moments of the weights of a patch.
-#[derive(Debug, Clone, Copy)]
-pub struct WeightMoments<const D: usize> {
-    /// First moment about the particle, `sum_i (x_i - x_p) N_i` (m).
-    pub first: Vector<D>,
-    /// Second moment about the particle, `sum_i (x_i - x_p) (x) (x_i - x_p) N_i` (m^2).
-    pub second: Matrix<D>,
-}
-
 /// Moments of the weights of each particle.
 #[derive(Debug, Clone, Default)]
 pub struct Moments<const D: usize> {
@@ -39,21 +30,26 @@ impl<const D: usize> Moments<D> {
     }
 }
 
-/// Mean and second moments of the weights of one particle.
+/// Moments of the weights of one particle or patch.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::mpm) struct InertiaTensor<const D: usize> {
-    /// Weighted mean of the node positions, relative to the particle (m).
-    pub(in crate::mpm) mean: Vector<D>,
-    /// Inertia tensor D_p about the mean (m^2).
-    pub(in crate::mpm) second: Matrix<D>,
+pub struct WeightMoments<const D: usize> {
+    /// Weighted mean of the node positions relative to the particle, `sum_i (x_i - x_p) N_i` (m).
+    pub mean: Vector<D>,
+    /// Second moment (m^2), about the mean (the inertia tensor D_p) or about the particle.
+    pub second: Matrix<D>,
 }
 
-impl<const D: usize> InertiaTensor<D> {
+impl<const D: usize> WeightMoments<D> {
+    #[inline(always)]
+    pub(in crate::mpm) fn zero() -> Self {
+        Self { mean: zeros(), second: zeros() }
+    }
+
     /// Computes the moments of products of one-dimensional functions from mean and variance along
     /// each axis.
     #[inline(always)]
     pub(in crate::mpm) fn diagonal(mean: [f64; D], variance: [f64; D]) -> Self {
-        let mut inertia = Self { mean: zeros(), second: zeros() };
+        let mut inertia = Self::zero();
         for axis in 0..D {
             inertia.mean[axis] = mean[axis];
             inertia.second[(axis, axis)] = variance[axis];
@@ -61,11 +57,10 @@ impl<const D: usize> InertiaTensor<D> {
         inertia
     }
 
-    /// Computes the moments about the mean from those about the particle, for general weights.
+    /// Converts the second moment about the particle to the one about the mean.
     #[inline(always)]
-    pub(in crate::mpm) fn full(weight_moments: &WeightMoments<D>) -> Self {
-        let mean = weight_moments.first;
-        Self { mean, second: weight_moments.second - dyad(&mean, &mean) }
+    pub(in crate::mpm) fn about_mean(self) -> Self {
+        Self { second: self.second - dyad(&self.mean, &self.mean), ..self }
     }
 
     /// Computes `matrix D_p^-1`.

@@ -5,7 +5,7 @@ use super::source::{ParticlesOnGrid, PatchSource};
 use crate::mpm::basis::{CellLocator, FourLanes, ProductBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Matrix, array, zeros};
 use crate::mpm::foundation::grid::Grid;
-use crate::mpm::foundation::moments::InertiaTensor;
+use crate::mpm::foundation::moments::WeightMoments;
 use crate::mpm::foundation::packed_grid::Layout;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, LANES, Simd};
@@ -21,19 +21,19 @@ trait Visitor<W, const D: usize> {
         &mut self,
         patches: &mut ProductBatch<D, W>,
         lanes: Range<usize>,
-        of_all: Option<&InertiaTensor<D>>,
+        of_all: Option<&WeightMoments<D>>,
     );
 }
 
 impl<W, F, const D: usize> Visitor<W, D> for F
 where
-    F: FnMut(&mut ProductBatch<D, W>, Range<usize>, Option<&InertiaTensor<D>>),
+    F: FnMut(&mut ProductBatch<D, W>, Range<usize>, Option<&WeightMoments<D>>),
 {
     fn call(
         &mut self,
         patches: &mut ProductBatch<D, W>,
         lanes: Range<usize>,
-        of_all: Option<&InertiaTensor<D>>,
+        of_all: Option<&WeightMoments<D>>,
     ) {
         self(patches, lanes, of_all);
     }
@@ -75,7 +75,7 @@ impl<'a, P: PatchSource<D>, const D: usize> ParticleBatches<'a, P, D> {
         simd: S,
         first: usize,
         patches: &mut Batch<P, D>,
-        mut visit: impl FnMut(&mut Batch<P, D>, Range<usize>, Option<&InertiaTensor<D>>),
+        mut visit: impl FnMut(&mut Batch<P, D>, Range<usize>, Option<&WeightMoments<D>>),
     ) -> u32 {
         if const { P::IS_DYN } {
             // Without the type of `visit`, the compiler does not copy its loop to each call.
@@ -93,7 +93,7 @@ impl<'a, P: PatchSource<D>, const D: usize> ParticleBatches<'a, P, D> {
         simd: S,
         first: usize,
         patches: &mut Batch<P, D>,
-        mut visit: impl FnMut(&mut Batch<P, D>, Range<usize>, Option<&InertiaTensor<D>>),
+        mut visit: impl FnMut(&mut Batch<P, D>, Range<usize>, Option<&WeightMoments<D>>),
     ) -> u32 {
         let Self { at, source, .. } = self;
         let count = BATCH.min(at.particles.len() - first);
@@ -175,7 +175,7 @@ pub(super) fn divide<P: PatchSource<D>, S: Simd, const D: usize>(
     simd: S,
     patches: &Batch<P, D>,
     lane: usize,
-    of_all: Option<&InertiaTensor<D>>,
+    of_all: Option<&WeightMoments<D>>,
     matrix: &[S::F64x4; D],
     from: usize,
     h: f64,

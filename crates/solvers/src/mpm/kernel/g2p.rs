@@ -6,7 +6,7 @@ use super::source::{AnyBasis, PatchSource};
 use crate::mpm::basis::{ProductBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::grid::Grid;
-use crate::mpm::foundation::moments::InertiaTensor;
+use crate::mpm::foundation::moments::WeightMoments;
 use crate::mpm::foundation::packed_grid::FieldView;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64x4, LANES, Plain, Simd, SimdPass, components};
@@ -97,7 +97,7 @@ impl<const D: usize, P: PatchSource<D>> Gather<'_, D, P> {
         simd: S,
         patches: &mut Batch<P, D>,
         lanes: Range<usize>,
-        of_all: Option<&InertiaTensor<D>>,
+        of_all: Option<&WeightMoments<D>>,
         moments: bool,
         sums: &mut G2pSums<S, D>,
     ) {

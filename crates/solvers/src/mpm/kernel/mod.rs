@@ -34,7 +34,7 @@ use self::workspace::Workspace;
 use super::basis::{Basis, BasisName, Domain, LoopsUser, NodeWeight, with_basis};
 use super::foundation::algebra::{Matrix, Vector, zeros};
 use super::foundation::grid::Grid;
-use super::foundation::moments::{InertiaTensor, Moments};
+use super::foundation::moments::{Moments, WeightMoments};
 use super::foundation::packed_grid::Columns;
 use super::foundation::particles::Particles;
 use contract::{G2pRequest, Kernel, LoopSettings, P2gRequest, ParticleField, Tally};
@@ -174,7 +174,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>) {
         self.tally.add("weight moments", particles.len());
         for (p, (mean, second)) in moments.mean.iter_mut().zip(&mut moments.second).enumerate() {
-            InertiaTensor { mean: *mean, second: *second } = inertia::<D, B>(grid, particles, p);
+            WeightMoments { mean: *mean, second: *second } = inertia::<D, B>(grid, particles, p);
         }
     }
 

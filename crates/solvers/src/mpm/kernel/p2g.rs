@@ -6,7 +6,7 @@ use super::source::{AnyBasis, PatchSource};
 use crate::mpm::basis::{NodeTerm, ProductBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Matrix, Vector, array};
 use crate::mpm::foundation::grid::Grid;
-use crate::mpm::foundation::moments::InertiaTensor;
+use crate::mpm::foundation::moments::WeightMoments;
 use crate::mpm::foundation::packed_grid::{FieldViewMut, PackedNode, force_lane};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, Plain, Simd, SimdPass};
@@ -102,7 +102,7 @@ struct Visit<'a, const D: usize, P: PatchSource<D>> {
     first: usize,
     lanes: Range<usize>,
     patches: &'a Batch<P, D>,
-    of_all: Option<&'a InertiaTensor<D>>,
+    of_all: Option<&'a WeightMoments<D>>,
     source: ParticleColumns<'a, D>,
 }
 

@@ -4,9 +4,8 @@
 use crate::mpm::basis::{
     Basis, CellLocator, CountedShape, FourLanes, Patch, PatchShape, ProductBatch,
 };
-use crate::mpm::foundation::algebra::zeros;
 use crate::mpm::foundation::grid::Grid;
-use crate::mpm::foundation::moments::{InertiaTensor, WeightMoments};
+use crate::mpm::foundation::moments::WeightMoments;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{Plain, Simd};
 use std::marker::PhantomData;
@@ -52,7 +51,7 @@ pub(in crate::mpm) trait PatchSource<const D: usize>: Copy {
     );
 
     /// Computes the moments of the weights of particle `p` over all its patches.
-    fn inertia(self, at: &ParticlesOnGrid<'_, D>, p: usize) -> InertiaTensor<D>;
+    fn inertia(self, at: &ParticlesOnGrid<'_, D>, p: usize) -> WeightMoments<D>;
 
     /// Returns the source for loops that serve all bases.
     fn for_any_basis(self) -> AnyBasis<D>;
@@ -109,7 +108,7 @@ impl<const D: usize, B: Basis> PatchSource<D> for Static<B> {
     }
 
     #[inline(always)]
-    fn inertia(self, at: &ParticlesOnGrid<'_, D>, p: usize) -> InertiaTensor<D> {
+    fn inertia(self, at: &ParticlesOnGrid<'_, D>, p: usize) -> WeightMoments<D> {
         inertia::<D, B>(at.grid, at.particles, p)
     }
 
@@ -163,7 +162,7 @@ pub(in crate::mpm) struct AnyBasis<const D: usize> {
     has_one_patch: bool,
     patches_x4: fn(&ParticlesOnGrid<'_, D>, FourLanes, &mut CountedBatch<D>) -> u32,
     each_patch: EachPatch<D>,
-    inertia: fn(&ParticlesOnGrid<'_, D>, usize) -> InertiaTensor<D>,
+    inertia: fn(&ParticlesOnGrid<'_, D>, usize) -> WeightMoments<D>,
 }
 
 impl<const D: usize> PatchSource<D> for AnyBasis<D> {
@@ -204,7 +203,7 @@ impl<const D: usize> PatchSource<D> for AnyBasis<D> {
     }
 
     #[inline(always)]
-    fn inertia(self, at: &ParticlesOnGrid<'_, D>, p: usize) -> InertiaTensor<D> {
+    fn inertia(self, at: &ParticlesOnGrid<'_, D>, p: usize) -> WeightMoments<D> {
         (self.inertia)(at, p)
     }
 
@@ -219,20 +218,18 @@ pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
     grid: &Grid<D>,
     particles: &Particles<D>,
     p: usize,
-) -> InertiaTensor<D> {
-    let mut all = WeightMoments { first: zeros(), second: zeros() };
-    let mut one = InertiaTensor { mean: zeros(), second: zeros() };
-    let mut patches = 0;
+) -> WeightMoments<D> {
+    let (mut all, mut one, mut patches) = (WeightMoments::zero(), WeightMoments::zero(), 0);
     B::patches(grid, particles, p, |patch| {
         let (mean, variance) = patch.variance();
-        one = InertiaTensor::diagonal(mean, variance);
+        one = WeightMoments::diagonal(mean, variance);
         patches += 1;
         if !B::ONE_PATCH {
             let weight_moments = patch.weight_moments();
-            all.first += weight_moments.first;
+            all.mean += weight_moments.mean;
             all.second += weight_moments.second;
         }
     });
     // A single patch is a product of one-dimensional functions, so its tensor is diagonal.
-    if B::ONE_PATCH || patches == 1 { one } else { InertiaTensor::full(&all) }
+    if B::ONE_PATCH || patches == 1 { one } else { all.about_mean() }
 }
