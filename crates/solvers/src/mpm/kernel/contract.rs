@@ -5,7 +5,7 @@
 //! ([`P2gRequest`], [`G2pRequest`]). Each quantity is bit-identical to the result of a separate
 //! pass.
 
-use crate::mpm::basis::Domain;
+use crate::mpm::basis::{Domain, NodeWeight};
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::Moments;
@@ -17,6 +17,17 @@ use std::sync::atomic::Ordering::Relaxed;
 
 /// Passes of P2G and G2P for one basis.
 pub trait Kernel<const D: usize>: Send + Sync {
+    /// Calls `visit` for every node of particle `p`. If a node occurs in several calls, the weight
+    /// and gradient of the node are sums over these calls. For passes that are not frequent enough
+    /// to be compiled for each basis.
+    fn visit(
+        &self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        p: usize,
+        visit: &mut dyn FnMut(NodeWeight<'_, D>),
+    );
+
     /// Computes all quantities of `request`, from particles to nodes, in one pass.
     fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>);
 
@@ -65,7 +76,12 @@ pub trait Kernel<const D: usize>: Send + Sync {
         p: usize,
         force: &Vector<D>,
         grid: &mut Grid<D>,
-    );
+    ) {
+        self.tally().add("p2g point force", 1);
+        let mut column = std::mem::take(&mut grid.force);
+        self.visit(grid, particles, p, &mut |i| column[i.node] += force * i.weight);
+        grid.force = column;
+    }
 
     /// Computes `value_p <- keep value_p + factor sum_i field_i N_i(x_p)`.
     fn g2p(
@@ -90,18 +106,16 @@ pub trait Kernel<const D: usize>: Send + Sync {
         grid: &Grid<D>,
         particles: &Particles<D>,
         entry: &mut dyn FnMut(usize, usize, f64),
-    );
-
-    /// Calls `entry` with the node, the weight N_i and the gradient (1/m) of every function at
-    /// particle `p`. If a node occurs in several calls, the weight and gradient of the node are
-    /// sums over these calls.
-    fn functions(
-        &self,
-        grid: &Grid<D>,
-        particles: &Particles<D>,
-        p: usize,
-        entry: &mut dyn FnMut(usize, f64, &Vector<D>),
-    );
+    ) {
+        self.tally().add("mass matrix", particles.len());
+        for (p, m) in particles.mass.iter().enumerate() {
+            self.visit(grid, particles, p, &mut |i| {
+                self.visit(grid, particles, p, &mut |j| {
+                    entry(i.node, j.node, m * i.weight * j.weight);
+                });
+            });
+        }
+    }
 
     /// Adds the nodal forces of a moment, `moment grad N_i(x_p)`, on particle `p`. The sum of these
     /// forces is zero. Together with a force f on the particle, the moment `f (x) d` (N m) has the
@@ -112,7 +126,12 @@ pub trait Kernel<const D: usize>: Send + Sync {
         p: usize,
         moment: &Matrix<D>,
         grid: &mut Grid<D>,
-    );
+    ) {
+        self.tally().add("p2g point moment", 1);
+        let mut column = std::mem::take(&mut grid.force);
+        self.visit(grid, particles, p, &mut |i| column[i.node] += moment * i.gradient);
+        grid.force = column;
+    }
 
     /// Corrects a `force` (N) that acts at the end of the domain of particle `p` along the axis
     /// `end.0`, in the direction `end.1` (1 or -1), and whose point and moment have been added
@@ -166,7 +185,10 @@ pub trait Kernel<const D: usize>: Send + Sync {
         amount: f64,
         grid: &Grid<D>,
         column: &mut [f64],
-    );
+    ) {
+        self.tally().add("p2g scalar source", 1);
+        self.visit(grid, particles, p, &mut |i| column[i.node] += amount * i.weight);
+    }
 
     /// Computes `s_p += factor sum_i field_i N_i(x_p)`.
     fn g2p_scalar(
@@ -368,7 +390,7 @@ const NAMES: [&str; 19] = [
 
 impl Tally {
     #[inline]
-    pub(super) fn add(&self, name: &str, particles: usize) {
+    pub(in crate::mpm) fn add(&self, name: &str, particles: usize) {
         let Some(counts) = self.0.get() else { return };
         if let Some(part) = NAMES.iter().position(|known| *known == name) {
             counts[part].fetch_add(particles as u64, Relaxed);

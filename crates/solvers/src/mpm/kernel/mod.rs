@@ -32,7 +32,7 @@ mod workspace;
 use self::source::inertia;
 use self::workspace::Workspace;
 use super::basis::{Basis, BasisName, Domain, LoopsUser, NodeWeight, with_basis};
-use super::foundation::algebra::{Matrix, Vector, zeros};
+use super::foundation::algebra::{Vector, zeros};
 use super::foundation::grid::Grid;
 use super::foundation::moments::{Moments, WeightMoments};
 use super::foundation::packed_grid::Columns;
@@ -89,10 +89,16 @@ struct Loops<B> {
 }
 
 impl<B: Basis> Loops<B> {
-    /// Calls `visit` for every node of particle `p`. For passes that are not frequent enough to be
-    /// compiled for each basis.
+    fn workspace(&self) -> MutexGuard<'_, Workspace> {
+        // A panic in an earlier pass is harmless, because the next pass overwrites all contents.
+        self.workspace.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     #[inline(never)]
-    fn visit<const D: usize>(
+    fn visit(
+        &self,
         grid: &Grid<D>,
         particles: &Particles<D>,
         p: usize,
@@ -101,13 +107,6 @@ impl<B: Basis> Loops<B> {
         B::visit(grid, particles, p, visit);
     }
 
-    fn workspace(&self) -> MutexGuard<'_, Workspace> {
-        // A panic in an earlier pass is harmless, because the next pass overwrites all contents.
-        self.workspace.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>) {
         request.parts().for_each(|name| self.tally.add(name, particles.len()));
         let mut mass = std::mem::take(&mut grid.mass);
@@ -147,19 +146,6 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         grid.force = force;
     }
 
-    fn p2g_point_force(
-        &self,
-        particles: &Particles<D>,
-        p: usize,
-        force: &Vector<D>,
-        grid: &mut Grid<D>,
-    ) {
-        self.tally.add("p2g point force", 1);
-        let mut column = std::mem::take(&mut grid.force);
-        Self::visit(grid, particles, p, &mut |i| column[i.node] += force * i.weight);
-        grid.force = column;
-    }
-
     fn g2p_field(
         &self,
         grid: &Grid<D>,
@@ -176,46 +162,6 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         for (p, (mean, second)) in moments.mean.iter_mut().zip(&mut moments.second).enumerate() {
             WeightMoments { mean: *mean, second: *second } = inertia::<D, B>(grid, particles, p);
         }
-    }
-
-    fn mass_entries(
-        &self,
-        grid: &Grid<D>,
-        particles: &Particles<D>,
-        entry: &mut dyn FnMut(usize, usize, f64),
-    ) {
-        self.tally.add("mass matrix", particles.len());
-        for (p, m) in particles.mass.iter().enumerate() {
-            Self::visit(grid, particles, p, &mut |i| {
-                Self::visit(grid, particles, p, &mut |j| {
-                    entry(i.node, j.node, m * i.weight * j.weight);
-                });
-            });
-        }
-    }
-
-    fn functions(
-        &self,
-        grid: &Grid<D>,
-        particles: &Particles<D>,
-        p: usize,
-        entry: &mut dyn FnMut(usize, f64, &Vector<D>),
-    ) {
-        self.tally.add("basis functions", 1);
-        Self::visit(grid, particles, p, &mut |i| entry(i.node, i.weight, i.gradient));
-    }
-
-    fn p2g_point_moment(
-        &self,
-        particles: &Particles<D>,
-        p: usize,
-        moment: &Matrix<D>,
-        grid: &mut Grid<D>,
-    ) {
-        self.tally.add("p2g point moment", 1);
-        let mut column = std::mem::take(&mut grid.force);
-        Self::visit(grid, particles, p, &mut |i| column[i.node] += moment * i.gradient);
-        grid.force = column;
     }
 
     fn p2g_domain_end(
@@ -282,18 +228,6 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
             let flow = slope[p] * (factor * vol);
             B::visit(grid, particles, p, |i| column[i.node] += flow.dot(i.gradient));
         }
-    }
-
-    fn p2g_amount(
-        &self,
-        particles: &Particles<D>,
-        p: usize,
-        amount: f64,
-        grid: &Grid<D>,
-        column: &mut [f64],
-    ) {
-        self.tally.add("p2g scalar source", 1);
-        Self::visit(grid, particles, p, &mut |i| column[i.node] += amount * i.weight);
     }
 
     fn g2p_scalar(

@@ -102,12 +102,14 @@ impl<const D: usize> StepEquations<D> {
                     site: Site::Particle(p),
                 });
             }
-            kernel.functions(grid, particles, p, &mut |node, weight, gradient| {
-                let (gradient, hoop) = (*gradient, weight / radius);
+            kernel.visit(grid, particles, p, &mut |i| {
+                let (node, weight, hoop) = (i.node, i.weight, i.weight / radius);
+                let gradient = *i.gradient;
                 functions.push(NodeFunction { node, weight, gradient, hoop });
             });
             ends.push(functions.len());
         }
+        kernel.tally().add("basis functions", particles.len());
         let mut sums = vec![0.0; grid.nodes()];
         for function in &functions {
             sums[function.node] += function.weight;
