@@ -21,87 +21,21 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{F64x4, LANES, Plain, Simd};
 
-/// GIMP with domains of constant size.
+/// GIMP, whose domains either follow the deformation or have constant size.
 #[derive(Debug, Clone, Copy)]
-pub struct UniformGimp;
+pub struct Gimp<const FOLLOWS: bool>;
+
+/// GIMP with domains of constant size.
+pub type UniformGimp = Gimp<false>;
 
 /// GIMP with domains that follow the deformation.
-#[derive(Debug, Clone, Copy)]
-pub struct ContiguousGimp;
+pub type ContiguousGimp = Gimp<true>;
 
 /// Returns the half-length (m) of the domain of particle `p` along `axis`. Particles of uGIMP have
 /// no column of domains, so both kinds of GIMP share their loops.
 #[inline(always)]
 fn half<const D: usize>(particles: &Particles<D>, p: usize, axis: usize) -> f64 {
     particles.domain.get(p).map_or(0.5 * particles.spacing[axis], |r| r[(axis, axis)])
-}
-
-#[inline(always)]
-fn patches<const D: usize>(
-    grid: &Grid<D>,
-    particles: &Particles<D>,
-    p: usize,
-    mut visit: impl FnMut(&Product<D, AT_ONCE>),
-) {
-    let x = &particles.x[p];
-    if grid.cell(x).is_none() {
-        return;
-    }
-    let alone = |axis: usize| {
-        let half = half(particles, p, axis) * grid.inverse_h();
-        Domain1d::new(grid, grid.wrapped(x, axis), half, axis)
-    };
-    let axes: [Domain1d; D] = array(alone(0), alone);
-    let mut groups = 1;
-    for axis in &axes {
-        groups *= axis.groups;
-    }
-    for mut group in 0..groups {
-        visit(&Product(array(Weights1d::NONE, |axis| {
-            let along = axes[axis].along(grid, axis, group % axes[axis].groups);
-            group /= axes[axis].groups;
-            along
-        })));
-    }
-}
-
-/// Computes the patches of four particles. Returns the mask of particles with at most [`AT_ONCE`]
-/// functions along each axis.
-#[inline(always)]
-fn patches_x4<S: Simd, W: PatchShape, const D: usize>(
-    simd: S,
-    grid: &Grid<D>,
-    locator: &CellLocator<D>,
-    particles: &Particles<D>,
-    lanes: FourLanes,
-    patches: &mut ProductBatch<D, W>,
-) -> u32 {
-    let FourLanes { particle: first, lane } = lanes;
-    let CellPositions { cell, xi, inside } = locator.locate(simd, grid, &particles.x, first);
-    let (mut start, mut one) = (cell, inside);
-    let domains = particles.domain.get(first..).and_then(<[Matrix<D>]>::first_chunk::<LANES>);
-    for axis in 0..D {
-        let half = match domains {
-            _ if particles.domain.is_empty() => simd.splat(0.5 * particles.spacing[axis]),
-            Some(four) => simd.load(array(0.0, |k| four[k][(axis, axis)])),
-            None => simd.load(last(particles, first, axis)),
-        };
-        let wall = (!locator.periodic[axis]).then_some(locator.ends[axis]);
-        let at = cell[axis] + xi[axis];
-        let extent = Domain1dSimd::<S>::new(at, half * locator.inverse_h, wall);
-        let along = extent.along(simd, locator.h, locator.inverse_h);
-        along.put(lane / LANES, locator.needs, &mut patches.axes[axis]);
-        start[axis] = extent.first;
-        if wall.is_none() && !start[axis].are_in(0.0, locator.ends[axis]) {
-            start[axis] = simd.load(beyond_seam(grid, axis, start[axis].into()));
-        }
-        let spare = extent.spare();
-        if !spare.are_in(0.0, f64::INFINITY) {
-            one &= not_below_zero(spare.into());
-        }
-    }
-    patches.put_starts(lane, locator.starts(&start));
-    one
 }
 
 #[cold]
@@ -132,75 +66,113 @@ fn is_bent<const D: usize>(grid: &Grid<D>, x: &Vector<D>, axis: usize, half: f64
     is_inside && half < LONGEST && low.floor() + 1.0 < high
 }
 
-macro_rules! gimp {
-    ($name:ident, $domain:ident) => {
-        impl Basis for $name {
-            const DEGREE: u8 = 1;
-            const DOMAIN: Domain = Domain::$domain;
+impl<const FOLLOWS: bool> Basis for Gimp<FOLLOWS> {
+    const DEGREE: u8 = 1;
+    const DOMAIN: Domain = if FOLLOWS { Domain::Follows } else { Domain::Fixed };
 
-            const ONE_PATCH: bool = false;
+    const ONE_PATCH: bool = false;
 
-            type Patch<const D: usize> = Product<D, AT_ONCE>;
+    type Patch<const D: usize> = Product<D, AT_ONCE>;
 
-            #[inline(always)]
-            fn patches<const D: usize>(
-                grid: &Grid<D>,
-                particles: &Particles<D>,
-                p: usize,
-                visit: impl FnMut(&Product<D, AT_ONCE>),
-            ) {
-                patches(grid, particles, p, visit);
+    #[inline(always)]
+    fn patches<const D: usize>(
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        p: usize,
+        mut visit: impl FnMut(&Product<D, AT_ONCE>),
+    ) {
+        let x = &particles.x[p];
+        if grid.cell(x).is_none() {
+            return;
+        }
+        let alone = |axis: usize| {
+            let half = half(particles, p, axis) * grid.inverse_h();
+            Domain1d::new(grid, grid.wrapped(x, axis), half, axis)
+        };
+        let axes: [Domain1d; D] = array(alone(0), alone);
+        let mut groups = 1;
+        for axis in &axes {
+            groups *= axis.groups;
+        }
+        for mut group in 0..groups {
+            visit(&Product(array(Weights1d::NONE, |axis| {
+                let along = axes[axis].along(grid, axis, group % axes[axis].groups);
+                group /= axes[axis].groups;
+                along
+            })));
+        }
+    }
+
+    /// Stores the patches of particles with at most [`AT_ONCE`] functions along each axis.
+    #[inline(always)]
+    fn patches_x4<S: Simd, W: PatchShape, const D: usize>(
+        simd: S,
+        grid: &Grid<D>,
+        locator: &CellLocator<D>,
+        particles: &Particles<D>,
+        lanes: FourLanes,
+        patches: &mut ProductBatch<D, W>,
+    ) -> u32 {
+        let FourLanes { particle: first, lane } = lanes;
+        let CellPositions { cell, xi, inside } = locator.locate(simd, grid, &particles.x, first);
+        let (mut start, mut one) = (cell, inside);
+        let domains = particles.domain.get(first..).and_then(<[Matrix<D>]>::first_chunk::<LANES>);
+        for axis in 0..D {
+            let half = match domains {
+                _ if particles.domain.is_empty() => simd.splat(0.5 * particles.spacing[axis]),
+                Some(four) => simd.load(array(0.0, |k| four[k][(axis, axis)])),
+                None => simd.load(last(particles, first, axis)),
+            };
+            let wall = (!locator.periodic[axis]).then_some(locator.ends[axis]);
+            let at = cell[axis] + xi[axis];
+            let extent = Domain1dSimd::<S>::new(at, half * locator.inverse_h, wall);
+            let along = extent.along(simd, locator.h, locator.inverse_h);
+            along.put(lane / LANES, locator.needs, &mut patches.axes[axis]);
+            start[axis] = extent.first;
+            if wall.is_none() && !start[axis].are_in(0.0, locator.ends[axis]) {
+                start[axis] = simd.load(beyond_seam(grid, axis, start[axis].into()));
             }
-
-            #[inline(always)]
-            fn patches_x4<S: Simd, W: PatchShape, const D: usize>(
-                simd: S,
-                grid: &Grid<D>,
-                locator: &CellLocator<D>,
-                particles: &Particles<D>,
-                lanes: FourLanes,
-                patches: &mut ProductBatch<D, W>,
-            ) -> u32 {
-                patches_x4(simd, grid, locator, particles, lanes, patches)
-            }
-
-            fn visit_domain_end<const D: usize>(
-                grid: &Grid<D>,
-                particles: &Particles<D>,
-                p: usize,
-                (axis, outwards): (usize, f64),
-                mut visit: impl FnMut(NodeWeight<'_, D>),
-            ) {
-                let half = half(particles, p, axis);
-                if !is_bent(grid, &particles.x[p], axis, half) {
-                    return;
-                }
-                let arm = outwards * half;
-                Self::patches(grid, particles, p, |patch| {
-                    let mut end = *patch;
-                    let along = &mut end.0[axis];
-                    for k in 0..AT_ONCE {
-                        let exact = hat((arm - along.offset[k]) * grid.inverse_h());
-                        along.weight[k] = exact - along.weight[k] - arm * along.slope[k];
-                    }
-                    end.visit(grid, &mut visit);
-                });
-            }
-
-            fn with_loops<U: LoopsUser>(user: U) -> U::Output {
-                user.call::<ContiguousGimp>()
-            }
-
-            /// Counts three nodes along each axis, the number for domains of at most one cell.
-            fn support(dimension: usize) -> u64 {
-                3_u64.pow(dimension as u32)
+            let spare = extent.spare();
+            if !spare.are_in(0.0, f64::INFINITY) {
+                one &= not_below_zero(spare.into());
             }
         }
-    };
-}
+        patches.put_starts(lane, locator.starts(&start));
+        one
+    }
 
-gimp!(UniformGimp, Fixed);
-gimp!(ContiguousGimp, Follows);
+    fn visit_domain_end<const D: usize>(
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        p: usize,
+        (axis, outwards): (usize, f64),
+        mut visit: impl FnMut(NodeWeight<'_, D>),
+    ) {
+        let half = half(particles, p, axis);
+        if !is_bent(grid, &particles.x[p], axis, half) {
+            return;
+        }
+        let arm = outwards * half;
+        Self::patches(grid, particles, p, |patch| {
+            let mut end = *patch;
+            let along = &mut end.0[axis];
+            for k in 0..AT_ONCE {
+                let exact = hat((arm - along.offset[k]) * grid.inverse_h());
+                along.weight[k] = exact - along.weight[k] - arm * along.slope[k];
+            }
+            end.visit(grid, &mut visit);
+        });
+    }
+
+    fn with_loops<U: LoopsUser>(user: U) -> U::Output {
+        user.call::<ContiguousGimp>()
+    }
+
+    /// Counts three nodes along each axis, the number for domains of at most one cell.
+    fn support(dimension: usize) -> u64 {
+        3_u64.pow(dimension as u32)
+    }
+}
 
 /// Number of functions in a group. One group contains all functions along an axis if the domain is
 /// at most one cell long.
