@@ -3,9 +3,9 @@
 
 /// Declares a family of types that suite files select by name.
 ///
-/// `family! { /// docs  pub enum BasisName; with_basis; "linear" => Linear, }` defines the enum of
-/// names and a macro `with_basis!(name, B => expr)`. The macro contains the only `match` from a
-/// name to a type. `"linear" => linear::Linear` also exports the type from its file.
+/// `family! { /// docs  pub enum BasisName; with_basis; "linear" => linear::Linear, }` exports the
+/// types from their files. It defines the enum of names and a macro `with_basis!(name, B => expr)`,
+/// which contains the only `match` from a name to a type.
 macro_rules! family {
     (
         $(#[$meta:meta])* pub enum $names:ident; $with:ident;
@@ -13,13 +13,6 @@ macro_rules! family {
     ) => {
         $(pub use self::$file::$member;)+
 
-        $crate::mpm::foundation::family::family! {
-            $(#[$meta])*
-            pub enum $names; $with;
-            $($text => $member,)+
-        }
-    };
-    ($(#[$meta:meta])* pub enum $names:ident; $with:ident; $($text:literal => $member:ident,)+) => {
         mpm_subject::named! {
             $(#[$meta])*
             pub enum $names {
