@@ -30,7 +30,7 @@ pub fn subject(
     method: MethodInput,
 ) -> Result<Box<dyn Subject>, SubjectError> {
     with_dimension!(scene.grid.dimension(), D => match method {
-        MethodInput::Dynamic(method) => dynamic::<D>(scene, method),
+        MethodInput::Dynamic(method) => Ok(dynamic::<D>(scene, method)?),
         MethodInput::QuasiStatic { basis, load_steps } => {
             Ok(Box::new(quasi_static::<D>(scene, basis, load_steps)?))
         }
@@ -102,16 +102,7 @@ pub fn perturbable(
     scene: SceneInput<'_>,
     method: MpmMethod,
 ) -> Result<Box<dyn Perturbable>, SubjectError> {
-    let contact = scene.contact;
-    with_dimension!(scene.grid.dimension(), D => {
-        let mut setups = setups::<D>(scene, method)?;
-        if setups.len() == 1
-            && let Some(one) = setups.pop()
-        {
-            return Ok(Box::new(Solver::new(one)?));
-        }
-        Ok(Box::new(Bodies::new(setups, contact)?))
-    })
+    with_dimension!(scene.grid.dimension(), D => dynamic::<D>(scene, method))
 }
 
 /// Creates the initial particles of each body; `disturb` may modify the state of each body. The law
@@ -172,18 +163,16 @@ pub fn initial_stress(
 fn dynamic<const D: usize>(
     scene: SceneInput<'_>,
     method: MpmMethod,
-) -> Result<Box<dyn Subject>, SubjectError> {
+) -> Result<Box<dyn Perturbable>, SubjectError> {
     let contact = scene.contact;
     let mut setups = setups::<D>(scene, method)?;
-    Ok(match (setups.pop(), setups.is_empty(), contact) {
-        (Some(one), true, None) if method.precision == Precision::Single => {
-            Box::new(Solver::in_single_precision(one)?)
-        }
-        (Some(one), true, None) => Box::new(Solver::new(one)?),
-        (last, _, contact) => {
-            setups.extend(last);
-            Box::new(Bodies::new(setups, contact)?)
-        }
+    if setups.len() > 1 {
+        return Ok(Box::new(Bodies::new(setups, contact)?));
+    }
+    let one = setups.pop().ok_or("a scene has at least one body")?;
+    Ok(match method.precision {
+        Precision::Single => Box::new(Solver::in_single_precision(one)?),
+        Precision::Double => Box::new(Solver::new(one)?),
     })
 }
 
