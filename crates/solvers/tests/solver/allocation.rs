@@ -88,7 +88,7 @@ fn heat<const D: usize>(
         tolerance: 1e-8,
     };
     let mut forcing = HeatForcing::new(&problem, particles.x0.iter().map(Vector::as_slice));
-    let number = || -> ScalarField<D> { Box::new(|x, t| x[0] * t) };
+    let number = || -> ScalarField { Box::new(|x, t| x[0] * t) };
     let heat = Heat::new(0.01, 1.0, particles, |x| (x[0], Vector::zeros()));
     let convection = Thermal::Inflow(Box::new(|x, t, value| 0.1 * (x[0] * t - value)));
     let conditions = [

@@ -17,24 +17,24 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use mpm_subject::Column;
 
-/// A number as a function of position and time (s).
-pub type ScalarField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;
+/// A number as a function of position (m) and time (s).
+pub type ScalarField = Box<dyn Fn(&[f64], f64) -> f64 + Send>;
 
-/// Heat inflow (W/m^(D-1)) as a function of position, time (s) and local temperature (K).
-pub type HeatInflow<const D: usize> = Box<dyn Fn(&Vector<D>, f64, f64) -> f64 + Send>;
+/// Heat inflow (W/m^(D-1)) as a function of position (m), time (s) and local temperature (K).
+pub type HeatInflow = Box<dyn Fn(&[f64], f64, f64) -> f64 + Send>;
 
 /// Condition on a face that is not insulated: a prescribed temperature, or a prescribed heat flux
 /// that may depend on the temperature.
-pub enum Thermal<const D: usize> {
+pub enum Thermal {
     /// Temperature (K): Dirichlet condition.
-    Temperature(ScalarField<D>),
+    Temperature(ScalarField),
     /// Heat inflow: Neumann or Robin condition.
-    Inflow(HeatInflow<D>),
+    Inflow(HeatInflow),
 }
 
 /// A thermal condition on a face of the grid at which the body ends.
 pub struct ThermalBoundary<const D: usize> {
-    condition: Thermal<D>,
+    condition: Thermal,
     axis: usize,
     wall: usize,
     nodes: Vec<(usize, Vector<D>)>,
@@ -53,7 +53,7 @@ impl<const D: usize> ThermalBoundary<D> {
         particles: &Particles<D>,
         axis: usize,
         side: Side,
-        condition: Thermal<D>,
+        condition: Thermal,
     ) -> Self {
         let place = |i| (i, basis.place(grid, i));
         let Surface { layer, area, .. } = Surface::new(particles, axis, side, Placement::Particles);
@@ -82,6 +82,7 @@ impl<const D: usize> ThermalBoundary<D> {
     pub(super) fn hold_temperature(&self, t: f64, temperature: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {
+                let x = x.as_slice();
                 temperature[*i] = value(x, t);
             }
         }
@@ -92,6 +93,7 @@ impl<const D: usize> ThermalBoundary<D> {
     pub(super) fn hold_rate(&self, t: f64, dt: f64, rate: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {
+                let x = x.as_slice();
                 rate[*i] = (value(x, t + dt) - value(x, t)) / dt;
             }
         }
@@ -112,6 +114,7 @@ impl<const D: usize> ThermalBoundary<D> {
         self.gather_shares(particles, kernel, grid);
         if let Thermal::Inflow(density) = &self.condition {
             for (i, x) in &self.nodes {
+                let x = x.as_slice();
                 flow[*i] += self.share[*i] * density(x, t, temperature[*i]);
             }
         }

@@ -2,12 +2,13 @@
 //! [`EffectInput`], and the arm of [`EffectInput::build`] that creates the effect. The whole list
 //! of files is in `docs/exercises/effect.md`.
 
-use super::wall::{FaceInput, ThermalInput, vector_field};
+use super::wall::{FaceInput, vector_field};
 use super::{ScalarAt, VectorAt, VectorOfTime};
 use crate::mpm::basis::BasisName;
 use crate::mpm::effect::{
     ArtificialViscosity, BodyForce, Damping, Effect, Gravity, Heat, LocalDamping, Placement,
-    PrescribedVelocity, Pressure, RimCircle, SetForce, ThermalExpansion, Traction,
+    PrescribedVelocity, Pressure, RimCircle, SetForce, Thermal, ThermalBoundary, ThermalExpansion,
+    Traction,
 };
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -111,7 +112,7 @@ pub struct HeatInput {
     /// The heat source, if any.
     pub source: Option<Box<dyn HeatSourceAt>>,
     /// Conditions on faces that are not insulated.
-    pub faces: Vec<(FaceInput, ThermalInput)>,
+    pub faces: Vec<(FaceInput, Thermal)>,
 }
 
 /// A heat source at the particles of one body.
@@ -241,8 +242,8 @@ impl HeatInput {
             (value, Vector::from_fn(|axis, _| grad[axis]))
         };
         let heat = Heat::new(self.conductivity, self.capacity, particles, initial);
-        let build = |(face, condition): (FaceInput, ThermalInput)| {
-            condition.build(face, grid, basis, particles)
+        let build = |(FaceInput { axis, side }, condition): (FaceInput, Thermal)| {
+            ThermalBoundary::new(grid, basis, particles, axis, side, condition)
         };
         let heat = heat.with_faces(self.faces.into_iter().map(build).collect());
         let Some(mut source) = self.source else { return heat };

@@ -23,10 +23,12 @@ pub use self::{
     body::{CellLattice, CutLattice, Displace, FragmentInput, LatticeCell, MassAt, visit_lattice},
     effect::{ForceAt, HeatInput, HeatSourceAt, InSet, PressedPart, SetInput, TemperatureAt},
     state::{MotionAt, StateInput, StressAt},
-    wall::{FaceInput, InflowAt, SharedVectorAt, ThermalInput, WallInput},
+    wall::{FaceInput, SharedVectorAt, WallInput},
 };
 
 use super::basis::BasisName;
+#[doc(hidden)]
+pub use super::effect::{HeatInflow as InflowAt, ScalarField as ScalarAt};
 use super::foundation::particles::FrameName;
 use super::mass::MassName;
 use super::scheme::SchemeName;
@@ -37,9 +39,6 @@ use mpm_subject::{PlaneState, Precision, Start};
 /// A vector field: a function of the position (m) and time (s), which writes one number per
 /// dimension.
 pub type VectorAt = Box<dyn Fn(&[f64], f64, &mut [f64]) + Send>;
-
-/// A scalar field: a function of the position (m) and time (s).
-pub type ScalarAt = Box<dyn Fn(&[f64], f64) -> f64 + Send>;
 
 /// A vector that depends on time (s): writes one number per dimension.
 pub type VectorOfTime = Box<dyn Fn(f64, &mut [f64]) + Send>;

@@ -1,12 +1,9 @@
-//! Conditions on faces of the grid, and thermal conditions on faces of a body.
+//! Conditions on faces of the grid.
 
-use super::ScalarAt;
 use crate::mpm::basis::BasisName;
 use crate::mpm::boundary::{Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
-use crate::mpm::effect::{Thermal, ThermalBoundary};
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
-use crate::mpm::foundation::particles::Particles;
 use std::sync::Arc;
 
 /// A face of the grid or of a box-shaped body: the axis of its normal, and the end of this axis.
@@ -63,37 +60,6 @@ impl WallInput {
                 Box::new(Prescribed::face(grid, basis, axis, side, value))
             }
         }
-    }
-}
-
-/// A heat inflow (W/m^(D-1)) as a function of the position (m), time (s) and temperature (K).
-pub type InflowAt = Box<dyn Fn(&[f64], f64, f64) -> f64 + Send>;
-
-/// A thermal condition on a face that is not insulated.
-pub enum ThermalInput {
-    /// Temperature (K).
-    Temperature(ScalarAt),
-    /// Heat inflow.
-    Inflow(InflowAt),
-}
-
-impl ThermalInput {
-    pub(super) fn build<const D: usize>(
-        self,
-        face: FaceInput,
-        grid: &Grid<D>,
-        basis: BasisName,
-        particles: &Particles<D>,
-    ) -> ThermalBoundary<D> {
-        let condition = match self {
-            Self::Temperature(value) => {
-                Thermal::Temperature(Box::new(move |x: &Vector<D>, t| value(x.as_slice(), t)))
-            }
-            Self::Inflow(flow) => Thermal::Inflow(Box::new(move |x: &Vector<D>, t, value| {
-                flow(x.as_slice(), t, value)
-            })),
-        };
-        ThermalBoundary::new(grid, basis, particles, face.axis, face.side, condition)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFace, ThermalCondition};
-use crate::mpm::input::ThermalInput;
+use crate::mpm::Thermal;
 use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
@@ -43,7 +43,7 @@ impl ThermalFace {
 /// A thermal condition on one face of the body, with all numbers computed.
 pub(crate) trait HeatCondition: ThermalCondition + 'static {
     /// Returns the condition for the solver; `None` if no heat enters.
-    fn input(&self) -> Option<ThermalInput> {
+    fn input(&self) -> Option<Thermal> {
         None
     }
 

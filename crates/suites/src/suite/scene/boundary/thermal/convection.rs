@@ -4,7 +4,7 @@ use super::contract::{HeatCondition, ThermalKeys};
 use crate::exact::Violation;
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
-use crate::mpm::input::ThermalInput;
+use crate::mpm::Thermal;
 use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::scene::numbers::{scalar, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -53,9 +53,9 @@ impl HeatCondition for Convection {
         Some(format!("convection, {coefficient} W/(m2 K), ambient temperature = {ambient}"))
     }
 
-    fn input(&self) -> Option<ThermalInput> {
+    fn input(&self) -> Option<Thermal> {
         let (coefficient, ambient) = (self.coefficient, scalar(&self.ambient));
         let flow = move |x: &[f64], t, value| coefficient * (ambient(x, t) - value);
-        Some(ThermalInput::Inflow(Box::new(flow)))
+        Some(Thermal::Inflow(Box::new(flow)))
     }
 }

@@ -4,7 +4,7 @@ use super::contract::{HeatCondition, ThermalKeys};
 use crate::exact::Violation;
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
-use crate::mpm::input::ThermalInput;
+use crate::mpm::Thermal;
 use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::scene::numbers::{scalar, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -38,8 +38,8 @@ impl HeatCondition for GivenFlux {
         Some(format!("heat flux = {} into the body", with_unit(self.0.source(), "W/m2")))
     }
 
-    fn input(&self) -> Option<ThermalInput> {
+    fn input(&self) -> Option<Thermal> {
         let value = scalar(&self.0);
-        Some(ThermalInput::Inflow(Box::new(move |x, t, _| value(x, t))))
+        Some(Thermal::Inflow(Box::new(move |x, t, _| value(x, t))))
     }
 }

@@ -4,7 +4,7 @@ use super::contract::{HeatCondition, ThermalKeys};
 use crate::exact::Violation;
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
-use crate::mpm::input::ThermalInput;
+use crate::mpm::Thermal;
 use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::scene::numbers::{scalar, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -37,7 +37,7 @@ impl HeatCondition for GivenTemperature {
         Some(format!("temperature = {}", with_unit(self.0.source(), "K")))
     }
 
-    fn input(&self) -> Option<ThermalInput> {
-        Some(ThermalInput::Temperature(Box::new(scalar(&self.0))))
+    fn input(&self) -> Option<Thermal> {
+        Some(Thermal::Temperature(Box::new(scalar(&self.0))))
     }
 }
