@@ -13,7 +13,7 @@
 //! with the Jaumann rate to second order in the step. The return mapping is implicit. It is exact
 //! at a constant stress ratio, and of first order in the step otherwise.
 
-use super::contract::{Contradiction, Material, MaterialProperties, rate_form_averages_no_volume};
+use super::contract::{Contradiction, Material, MaterialProperties};
 use super::plastic_flow::{MARGIN, length_squared};
 use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
@@ -307,6 +307,10 @@ impl MaterialProperties for CamClay {
         })
     }
 
+    fn is_in_rate_form(&self) -> bool {
+        true
+    }
+
     fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
         Err("plastic flow depends on the whole history of the motion")
     }
@@ -317,14 +321,6 @@ impl MaterialProperties for CamClay {
 
     fn starts_stressed(&self) -> Result<(), &'static str> {
         Err("the clay starts under its `initial_pressure`")
-    }
-
-    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
-        rate_form_averages_no_volume()
-    }
-
-    fn has_energy(&self, _: usize) -> Result<(), &'static str> {
-        Err("is integrated in rate form and has no stored energy")
     }
 }
 

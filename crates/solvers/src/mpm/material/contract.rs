@@ -7,12 +7,6 @@ use crate::mpm::foundation::particles::Particles;
 use mpm_subject::{Column, Failure};
 use std::any::Any;
 
-/// Implements [`MaterialProperties::takes_averaged_volume`] for laws in rate form. Returns an
-/// error, because such a law computes the stress from the velocity gradient.
-pub(super) fn rate_form_averages_no_volume() -> Result<(), &'static str> {
-    Err("a law in rate form does not compute its stress from F or J")
-}
-
 /// Properties of a law that determine which problems can use the law.
 pub trait MaterialProperties {
     /// Returns the modulus for uniaxial strain at rest (Pa): `rho0 c^2` of the fastest wave, in a
@@ -25,12 +19,22 @@ pub trait MaterialProperties {
         (self.wave_modulus(density) / density).sqrt()
     }
 
+    /// Whether the law integrates a stress rate, so that the stress depends on the path.
+    fn is_in_rate_form(&self) -> bool {
+        false
+    }
+
     /// Checks that stress is a function of F alone. Only such laws support bodies that start in a
     /// prescribed motion, and manufactured body forces.
     ///
     /// # Errors
     /// The reason why stress depends on other quantities.
-    fn depends_on_deformation_alone(&self) -> Result<(), &'static str>;
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        if self.is_in_rate_form() {
+            return Err("a law in rate form has no stress of the deformation alone");
+        }
+        Ok(())
+    }
 
     /// Checks that the initial deformation determines the initial stress, so that a body may start
     /// deformed.
@@ -63,6 +67,9 @@ pub trait MaterialProperties {
     /// # Errors
     /// The reason why the averaged volume ratio is not supported.
     fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        if self.is_in_rate_form() {
+            return Err("a law in rate form does not compute its stress from F or J");
+        }
         self.depends_on_deformation_alone()
     }
 
@@ -102,6 +109,9 @@ pub trait MaterialProperties {
     /// The reason, phrased to follow the name of the law in a sentence.
     fn has_energy(&self, dimension: usize) -> Result<(), &'static str> {
         let _ = dimension;
+        if self.is_in_rate_form() {
+            return Err("is integrated in rate form and has no stored energy");
+        }
         Ok(())
     }
 }

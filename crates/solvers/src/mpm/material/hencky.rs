@@ -70,10 +70,6 @@ impl MaterialProperties for Hencky {
         self.lambda + 2.0 * self.mu
     }
 
-    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
-        Ok(())
-    }
-
     fn is_elastic(&self) -> bool {
         true
     }

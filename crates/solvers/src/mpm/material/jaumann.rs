@@ -6,7 +6,7 @@
 //! integration of a pure rotation is exact; in general, the order in the time step is 2. The work
 //! of the stress in a closed cycle of deformation is not zero, so the law has no energy.
 
-use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
+use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::linear;
 use super::linear_elastic::LinearElastic;
 use super::spectral::MatrixBatch;
@@ -31,16 +31,8 @@ impl MaterialProperties for Jaumann {
         self.0.lambda + 2.0 * self.0.mu
     }
 
-    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
-        Err("a law in rate form has no stress of the deformation alone")
-    }
-
-    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
-        rate_form_averages_no_volume()
-    }
-
-    fn has_energy(&self, _: usize) -> Result<(), &'static str> {
-        Err("is integrated in rate form and has no stored energy")
+    fn is_in_rate_form(&self) -> bool {
+        true
     }
 }
 

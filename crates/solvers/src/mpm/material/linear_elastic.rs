@@ -12,7 +12,7 @@
 //! from 0 to 1. This path has `grad v = H (I + s H)^-1` with `H = F - I`, and so `eps = sym(ln F)`
 //! (Higham 2008, *Functions of Matrices*, eq. 11.1).
 
-use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
+use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::linear;
 use super::plane_stress::RatePlaneStress;
 use super::spectral::MatrixBatch;
@@ -103,8 +103,8 @@ impl MaterialProperties for LinearElastic {
         self.lambda + 2.0 * self.mu
     }
 
-    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
-        Err("a law in rate form has no stress of the deformation alone")
+    fn is_in_rate_form(&self) -> bool {
+        true
     }
 
     fn starts_deformed(&self) -> Result<(), &'static str> {
@@ -117,10 +117,6 @@ impl MaterialProperties for LinearElastic {
 
     fn is_elastic(&self) -> bool {
         true
-    }
-
-    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
-        rate_form_averages_no_volume()
     }
 
     fn has_energy(&self, dimension: usize) -> Result<(), &'static str> {

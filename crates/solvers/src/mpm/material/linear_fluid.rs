@@ -32,10 +32,6 @@ impl MaterialProperties for LinearFluid {
         self.bulk
     }
 
-    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
-        Ok(())
-    }
-
     fn starts_stressed(&self) -> Result<(), &'static str> {
         Err("a fluid at rest has the pressure of its volume: state an `initial_displacement`")
     }

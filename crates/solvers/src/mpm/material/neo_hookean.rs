@@ -107,10 +107,6 @@ impl MaterialProperties for NeoHookean {
         self.lambda + 2.0 * self.mu
     }
 
-    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
-        Ok(())
-    }
-
     fn is_elastic(&self) -> bool {
         true
     }

@@ -45,10 +45,6 @@ impl MaterialProperties for Polytropic {
         (self.exponent * self.stiffness * libm::pow(density, self.exponent - 1.0)).sqrt()
     }
 
-    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
-        Ok(())
-    }
-
     fn starts_stressed(&self) -> Result<(), &'static str> {
         Err("a gas at rest has the pressure of its density: state an `initial_displacement`")
     }
