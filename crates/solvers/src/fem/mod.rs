@@ -36,9 +36,6 @@ mod mass;
 mod mesh;
 mod setup;
 
-#[cfg(test)]
-mod tests;
-
 pub use bar::Bar;
 pub use mesh::Element;
 pub use setup::{BarLaw, BarLoad, BarSetup, Mass, Sampling, SetupError, pointwise};

@@ -401,11 +401,6 @@ impl CamClay {
     pub(super) fn example(preconsolidation: f64) -> Self {
         Self::new(1.2, 0.02, 0.1, 0.25, 100.0, preconsolidation)
     }
-
-    pub(super) fn starting_at(mut self, tau: Matrix<3>, consolidation: f64) -> Self {
-        self.start = Clay { tau, consolidation };
-        self
-    }
 }
 
 #[cfg(test)]

@@ -96,32 +96,6 @@ fn isotropic_compression_follows_swelling_and_compression_lines(#[values(1, 7)] 
     assert_abs_diff_eq!(q, 0.0, epsilon = 1e-10);
 }
 
-/// On the K0 line the stress ratio is constant, `p = p0 exp(eps/lambda)` in any number of steps.
-#[rstest]
-#[case::five_per_cent(0.05, 164.872_127_070)]
-#[case::ten_per_cent(0.1, 271.828_182_846)]
-fn compression_stays_on_the_k0_line(
-    #[case] strain: f64,
-    #[case] expected: f64,
-    #[values(1, 2, 50)] steps: u32,
-) {
-    let [p, q] = squeeze(&mut specimen(on_the_k0_line()), [strain, 0.0], steps);
-    assert_relative_eq!(p, expected, max_relative = 1e-10);
-    assert_relative_eq!(q, K0_RATIO * p, max_relative = 1e-10);
-}
-
-/// Stress ratio on the K0 line, the root of `eta (1 - L)/(3 r) + 2 eta L/(M^2 - eta^2) = 2/3` with
-/// `L = 1 - kappa/lambda`.
-const K0_RATIO: f64 = 0.468_732_574_577;
-
-/// Creates clay under a mean stress of 100 Pa, on the K0 line and on the yield surface.
-fn on_the_k0_line() -> CamClay {
-    let tau = Vector::<3>::new(-2.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0) * K0_RATIO;
-    let consolidation = 100.0 * (1.0 + K0_RATIO * K0_RATIO / 1.44);
-    let tau = tau.add_scalar(-1.0) * 100.0;
-    CamClay::example(100.0).starting_at(Matrix::from_diagonal(&tau), consolidation)
-}
-
 /// Uniaxial compression inside the yield surface has `q = 2 r (p - p0)` and is reversible. A cycle
 /// of volume and shear is not reversible: `q = 3 r (p - p0)/kappa eps_q` remains.
 #[test]

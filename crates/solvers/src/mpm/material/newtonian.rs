@@ -95,22 +95,3 @@ impl<const D: usize> Material<D> for Newtonian {
         });
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MaterialPlan;
-    use super::super::specimen::{FAST, Specimen};
-    use crate::mpm::Matrix;
-    use approx::assert_abs_diff_eq;
-
-    #[test]
-    fn viscous_stress_is_proportional_to_the_deviatoric_rate() {
-        let fluid = MaterialPlan::Newtonian { bulk: 50.0, viscosity: 0.7 };
-        let grad_v = Matrix::<2>::new(3.0, 2.0, 0.0, 0.0);
-        let sigma = Specimen::new(fluid).flow(&grad_v, FAST);
-        let expected = Matrix::<2>::new(4.0 / 3.0 * 3.0, 2.0, 2.0, -2.0 / 3.0 * 3.0) * 0.7;
-        assert_abs_diff_eq!(sigma, expected, epsilon = 1e-9);
-        let along = Specimen::new(fluid).flow(&Matrix::<1>::new(3.0), FAST)[0];
-        assert_abs_diff_eq!(along, 2.8, epsilon = 1e-9);
-    }
-}

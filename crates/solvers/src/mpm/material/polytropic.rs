@@ -87,23 +87,6 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// Expects p = 3 rho^2 with rho = 0.5, 2 and 0 kg/m3, and a quarter of these pressures after a
-    /// stretch of 2.
-    #[test]
-    fn pressure_follows_the_density_of_each_particle() {
-        let (mut gas, mut row) = (Polytropic::new(3.0, 2.0), Particles::cubes([3]));
-        row.mass = vec![0.5, 2.0, 0.0];
-        gas.start_deformed(&mut row).unwrap();
-        let pressure =
-            |row: &Particles<1>| -> Vec<f64> { row.sigma.iter().map(|s| -s[0]).collect() };
-        assert_eq!(pressure(&row), [0.75, 12.0, 0.0]);
-        assert_relative_eq!(Material::energy(&gas, &row).unwrap(), 12.75, max_relative = 1e-15);
-        row.grad_v.fill(Matrix::<1>::new(1.0));
-        gas.update(&mut StressUpdate::new(1.0, &mut row));
-        assert_eq!(pressure(&row), [0.1875, 3.0, 0.0]);
-        assert_relative_eq!(Material::energy(&gas, &row).unwrap(), 6.375, max_relative = 1e-15);
-    }
-
     /// Expects c = sqrt(g K rho^(g - 1)).
     #[test]
     fn wave_speed_vanishes_with_the_density() {

@@ -216,22 +216,6 @@ mod tests {
         }
     }
 
-    /// Along S0, `dP/dF` is `M + S0` for a law that depends only on F, and the wave modulus M for a
-    /// law in rate form.
-    #[test]
-    fn small_waves_along_the_stress_have_the_increased_modulus() {
-        let [low, high] = [-1e-6, 1e-6].map(|eps| at(&Matrix::<1>::new(1.0 + eps)));
-        for ((plan, low, _), (_, high, _)) in low.into_iter().zip(high) {
-            let properties = plan.properties();
-            let extra = match properties.depends_on_deformation_alone() {
-                Ok(()) => initial::<1>()[(0, 0)],
-                Err(_) => 0.0,
-            };
-            let slope = (high[(0, 0)] - low[(0, 0)]) / 2e-6;
-            assert_relative_eq!(slope, properties.wave_modulus(1.0) + extra, max_relative = 1e-8);
-        }
-    }
-
     /// Load steps use this stress and this tangent.
     #[test]
     fn response_agrees_with_the_update_and_its_derivative() {
