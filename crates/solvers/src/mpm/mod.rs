@@ -63,8 +63,8 @@ pub use step::setup::Setup;
 pub use step::solver::Solver;
 pub use step::volume_average::VolumeName;
 pub use transfer::{
-    Apic, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferKind, TransferName,
-    Xpic, g2p, transfer,
+    AffineTransfer, Apic, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferKind,
+    TransferName, Xpic, g2p, transfer,
 };
 
 // For other modules and packages of this project, without a promise of stability.

@@ -1,10 +1,14 @@
-//! APIC: each particle has an affine velocity field.
+//! APIC and MLS-MPM: each particle has an affine velocity field.
 //!
 //! `v_p = sum_i v_i N_i`, `B_p = sum_i v_i (x) (x_i - x_p) N_i`, and nodes receive
 //! `v_p + B_p D_p^-1 (x_i - x_p)` (Jiang, Schroeder, Selle, Teran & Stomakhin 2015, eqs 8-10;
 //! Jiang, Schroeder & Teran 2017 prove that angular momentum is exact). The stored state is B, and
 //! D is evaluated at the new position. On the linear basis D changes within a cell, so storing
 //! `C = B D^-1` would lose angular momentum.
+//!
+//! In MLS-MPM the gradients come from the least-squares fit of the affine velocity field:
+//! `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - x_p) N_i` and `grad v_p = C_p = B_p D_p^-1` (Hu et
+//! al. 2018, eqs 17-18). The gradients grad N_i are not needed.
 
 use super::contract::{Transfer, TransferKind};
 use crate::mpm::foundation::algebra::{Matrix, product};
@@ -17,15 +21,21 @@ use crate::mpm::kernel::contract::{
 use mpm_subject::Column;
 
 /// Affine particle in cell.
+pub type Apic<const D: usize> = AffineTransfer<D, false>;
+
+/// Moving least squares MPM (MLS-MPM).
+pub type Mls<const D: usize> = AffineTransfer<D, true>;
+
+/// Transfer of affine velocity fields, with gradients of the basis or of the `FIT`.
 #[derive(Debug, Clone, Default)]
-pub struct Apic<const D: usize> {
+pub struct AffineTransfer<const D: usize, const FIT: bool> {
     /// First moments B_p of the velocity fields (m^2/s).
     b: Vec<Matrix<D>>,
 }
 
-impl<const D: usize> Transfer<D> for Apic<D> {
+impl<const D: usize, const FIT: bool> Transfer<D> for AffineTransfer<D, FIT> {
     fn kind(&self) -> TransferKind {
-        TransferKind::Field
+        if FIT { TransferKind::Fit } else { TransferKind::Field }
     }
 
     fn start(&mut self, kernel: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
@@ -43,7 +53,8 @@ impl<const D: usize> Transfer<D> for Apic<D> {
     fn p2g_request<'a>(&'a self, particles: &'a Particles<D>) -> P2gRequest<'a, D> {
         let affine = Some(Affine::Moment(&self.b));
         let momentum = Some(ParticleField { v: &particles.v, affine });
-        P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) }
+        let force = Some(if FIT { Divergence::Fit } else { Divergence::Gradient });
+        P2gRequest { mass: true, momentum, force }
     }
 
     fn g2p_request(&mut self, _: f64) -> G2pRequest<'_, D> {
