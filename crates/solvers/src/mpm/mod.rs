@@ -91,6 +91,5 @@ pub use self::{
         combine_across, combine_basis, combine_bodies, combine_precision, combine_volume,
     },
     step::heat_solver::HeatSolver,
-    step::initial::complete_start,
     transfer::{Blend, TransferParameter, WithParameter},
 };

@@ -4,7 +4,7 @@ use super::body::BodyInput;
 use super::state::{InitialState, ParticleTable, rows};
 use super::wall::WallInput;
 use super::{GridInput, MethodInput, MpmMethod, SceneInput};
-use crate::mpm::basis::BasisName;
+use crate::mpm::basis::{BasisName, Domain};
 use crate::mpm::effect::Hoop;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
@@ -15,7 +15,7 @@ use crate::mpm::multibody::Bodies;
 use crate::mpm::quasi_static::{QuasiStatic, QuasiStaticSetup};
 use crate::mpm::seeding::Fragment;
 use crate::mpm::step::heat_solver::HeatSolver;
-use crate::mpm::step::initial::complete_start;
+use crate::mpm::step::initial::complete;
 use crate::mpm::step::setup::Setup;
 use crate::mpm::step::solver::Solver;
 use mpm_subject::with_dimension;
@@ -155,7 +155,7 @@ pub fn initial_stress(
         initial.put(&mut particles);
         let law = material.in_plane(plane).ok_or("a law not supported in its plane")?;
         let mut law = initial.stressed(law, &mut particles)?;
-        complete_start(&mut particles, law.as_mut())?;
+        complete(&mut particles, Domain::Point, law.as_mut())?;
         Ok(rows(&particles.sigma))
     })
 }

@@ -10,7 +10,11 @@ use crate::mpm::material::Material;
 use mpm_subject::{Failure, Site};
 
 /// Adds the columns that are read by `material` or by a basis with this `domain`, and completes the
-/// initial state. Returns the smallest J. The errors are those of [`complete_start`].
+/// initial state. Returns the smallest J.
+///
+/// # Errors
+/// [`Failure::NotOfDeformation`] if F does not determine the stress of a deformed body.
+/// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
 pub(in crate::mpm) fn complete<const D: usize>(
     particles: &mut Particles<D>,
     domain: Domain,
@@ -42,19 +46,6 @@ pub(in crate::mpm) fn complete<const D: usize>(
     }
     particles.all_finite()?;
     Ok(if particles.is_empty() { 1.0 } else { min_j })
-}
-
-/// Completes the initial state of `particles` like a solver, for a basis that reads no domains.
-///
-/// # Errors
-/// [`Failure::NotOfDeformation`] if F does not determine the stress of a deformed body.
-/// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
-pub fn complete_start<const D: usize>(
-    particles: &mut Particles<D>,
-    material: &mut dyn Material<D>,
-) -> Result<(), Failure> {
-    complete(particles, Domain::Point, material)?;
-    particles.stressed_finite()
 }
 
 #[cfg(test)]
