@@ -96,37 +96,11 @@ impl Bar {
         &self.displacement
     }
 
-    /// Returns the nodal velocities (m/s), advanced to the current time as in [`Bar::velocity_at`].
+    /// Returns the nodal velocities (m/s). With [`Start::HalfStepBack`] the stored velocities are half
+    /// a step old. They are advanced to the current time with the last acceleration, which is accurate
+    /// to second order.
     pub fn nodal_velocities(&self) -> impl Iterator<Item = f64> {
         self.velocity.iter().zip(&self.acceleration).map(|(v, a)| v + self.lag * a)
-    }
-
-    /// Returns the displacement (m) at the reference position `x`; outside the bar, the
-    /// displacement of the nearest end.
-    pub fn displacement_at(&self, x: f64) -> f64 {
-        let (cell, place) = self.mesh.locate(x);
-        self.displacement_in(cell, place)
-    }
-
-    /// Returns the velocity (m/s) at the reference position `x`; outside the bar, the velocity of
-    /// the nearest end.
-    ///
-    /// With [`Start::HalfStepBack`] the stored velocities are half a step old. They are advanced to
-    /// the current time with the last acceleration, which is accurate to second order.
-    pub fn velocity_at(&self, x: f64) -> f64 {
-        let (cell, place) = self.mesh.locate(x);
-        self.velocity_in(cell, place)
-    }
-
-    /// Returns the displacement at a position in a cell (0 to 1).
-    pub(super) fn displacement_in(&self, cell: usize, place: f64) -> f64 {
-        self.mesh.interpolate(cell, place, &self.displacement)
-    }
-
-    /// Returns the velocity at a position in a cell (0 to 1), advanced to the current time.
-    pub(super) fn velocity_in(&self, cell: usize, place: f64) -> f64 {
-        let velocity = self.mesh.interpolate(cell, place, &self.velocity);
-        velocity + self.lag * self.mesh.interpolate(cell, place, &self.acceleration)
     }
 
     /// Computes F at every quadrature point. Fails if F is not positive or not finite, as after any
@@ -323,8 +297,9 @@ impl Bar {
         for cell in 0..self.mesh.cells() {
             for place in PLACES {
                 samples.label.push(self.mesh.position(cell, place));
-                samples.displacement.push(self.displacement_in(cell, place));
-                samples.velocity.push(self.velocity_in(cell, place));
+                let at = |nodal: &[f64]| self.mesh.interpolate(cell, place, nodal);
+                samples.displacement.push(at(&self.displacement));
+                samples.velocity.push(at(&self.velocity) + self.lag * at(&self.acceleration));
                 samples.weight.push(weight);
             }
         }

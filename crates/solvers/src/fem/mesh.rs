@@ -102,14 +102,6 @@ impl Mesh {
         &mut nodal[self.first_node(cell)..][..self.element.nodes()]
     }
 
-    /// Returns the cell that contains X, and the position of X in the cell (0 to 1). Positions
-    /// outside the mesh are moved to the nearest end.
-    pub(super) fn locate(&self, x: f64) -> (usize, f64) {
-        let along = (x.clamp(self.from, self.to) - self.from) / self.cell_length();
-        let cell = (along as usize).min(self.cells - 1); // the last node belongs to the last cell
-        (cell, along - cell as f64)
-    }
-
     /// Interpolates `nodal` values at the point `place` (0 to 1) of a cell.
     pub(super) fn interpolate(&self, cell: usize, place: f64, nodal: &[f64]) -> f64 {
         dot(&self.element.shape(2.0 * place - 1.0), self.local(cell, nodal))

@@ -23,17 +23,8 @@ pub struct Traction<const D: usize> {
 }
 
 impl<const D: usize> Traction<D> {
-    /// Creates a traction p0(t) on the outermost layer of `particles` at the face `side` of `axis`.
-    pub fn on(
-        particles: &Particles<D>,
-        axis: usize,
-        side: Side,
-        value: Box<dyn Fn(f64) -> Vector<D> + Send>,
-    ) -> Self {
-        Self::at(particles, axis, side, Placement::Particles, Box::new(move |_, t| value(t)))
-    }
-
-    /// Creates a traction p0(X, t), with X on the surface, at `placement`.
+    /// Creates a traction p0(X, t), with X on the surface, on the outermost layer of `particles` at
+    /// the face `side` of `axis`. The force acts at `placement`.
     pub fn at(
         particles: &Particles<D>,
         axis: usize,

@@ -16,7 +16,7 @@
 //! complete impulses. The velocities that strain the bodies may be computed before or after the
 //! impulses. They are corrected by the same rule, but only for the strain update.
 
-use super::coupling::{Coupling, InterfaceNodes};
+use super::coupling::{Coupling, find_interface};
 use crate::mpm::boundary::ContactState;
 use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
@@ -29,7 +29,8 @@ use mpm_subject::Column;
 /// Contact among all bodies on a grid.
 pub(in crate::mpm) struct Contact<const D: usize> {
     friction: f64,
-    interface: InterfaceNodes,
+    /// Nodes to which more than one body contributes mass, in ascending order.
+    interface: Vec<usize>,
     /// Mass gradient of each body, `sum_p m_p grad N_i` (kg/m), up to date at interface nodes.
     outwards: Vec<Vec<Vector<D>>>,
     pairs: Vec<[usize; 2]>,
@@ -50,7 +51,7 @@ impl<const D: usize> Contact<D> {
             friction,
             states: vec![ContactState::Separated; nodes * pairs.len()],
             pairs,
-            interface: InterfaceNodes::new(bodies),
+            interface: Vec::with_capacity(nodes),
             outwards: bodies.iter().map(column).collect(),
             mapped: bodies.iter().filter(strained_first).map(column).collect(),
         }
@@ -67,8 +68,8 @@ impl<const D: usize> Contact<D> {
     /// Applies impulses to approaching bodies over `dt` (s), as nodal accelerations.
     fn push(&mut self, bodies: &mut [Solver<D>], dt: f64) {
         self.states.fill(ContactState::Separated);
-        for k in 0..self.interface.nodes().len() {
-            let i = self.interface.nodes()[k];
+        for k in 0..self.interface.len() {
+            let i = self.interface[k];
             for pair in 0..self.pairs.len() {
                 let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
                 let [a, b] = self.pairs[pair].map(|k| &bodies[k].setup.grid);
@@ -102,7 +103,7 @@ impl<const D: usize> Contact<D> {
     /// velocities of bodies in contact become equal. Tangential velocities also become equal if the
     /// bodies stick.
     fn hold(&self, bodies: &mut [Solver<D>]) {
-        for &i in self.interface.nodes() {
+        for &i in &self.interface {
             for (pair, [a, b]) in self.pairs.iter().copied().enumerate() {
                 let state = self.states[i * self.pairs.len() + pair];
                 let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
@@ -156,7 +157,7 @@ impl<const D: usize> Coupling<D> for Contact<D> {
             column
         };
         vec![
-            Column::of_nodes("interface node", self.interface.nodes()),
+            Column::of_nodes("interface node", &self.interface),
             Column::of_nodes("contact state", &self.states),
             all("normal", &self.outwards),
             all("mapped velocity", &self.mapped),
@@ -167,13 +168,9 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         true
     }
 
-    fn nodes(&self) -> &[usize] {
-        self.interface.nodes()
-    }
-
     fn couple(&mut self, at: CouplingPoint, bodies: &mut [Solver<D>], dt: f64) {
         if at == CouplingPoint::Mass {
-            self.interface.find(bodies);
+            find_interface(&mut self.interface, bodies);
         }
         if at == CouplingPoint::StrainVelocity {
             for (body, mapped) in bodies.iter().zip(&mut self.mapped) {
@@ -185,7 +182,7 @@ impl<const D: usize> Coupling<D> for Contact<D> {
                 body.setup.grid.velocity.copy_from_slice(mapped);
             }
         }
-        if self.interface.nodes().is_empty() {
+        if self.interface.is_empty() {
             return;
         }
         match at {

@@ -18,42 +18,25 @@ pub(in crate::mpm) trait Coupling<const D: usize>: Send {
     /// Whether the coupling reads velocities before they advance.
     fn reads_velocity(&self) -> bool;
 
-    /// Returns the interface nodes, to which more than one body contributes mass.
-    fn nodes(&self) -> &[usize];
-
     /// Couples the bodies at one point of a step of `dt` (s).
     fn couple(&mut self, at: CouplingPoint, bodies: &mut [Solver<D>], dt: f64);
 }
 
-/// Nodes to which more than one body contributes mass, in ascending order.
-#[derive(Debug)]
-pub(in crate::mpm) struct InterfaceNodes(Vec<usize>);
-
-impl InterfaceNodes {
-    /// Creates an empty list, with capacity for all nodes of the grid that `bodies` share.
-    pub(in crate::mpm) fn new<const D: usize>(bodies: &[Solver<D>]) -> Self {
-        Self(Vec::with_capacity(bodies.first().map_or(0, |body| body.grid().nodes())))
-    }
-
-    pub(in crate::mpm) fn find<const D: usize>(&mut self, bodies: &[Solver<D>]) {
-        self.0.clear();
-        let Some(first) = bodies.first() else { return };
-        let present =
-            |node: usize| bodies.iter().filter(|body| body.grid().mass[node] > 0.0).count();
-        self.0.extend((0..first.grid().nodes()).filter(|node| present(*node) > 1));
-    }
-
-    pub(in crate::mpm) fn nodes(&self) -> &[usize] {
-        &self.0
-    }
+/// Lists the nodes to which more than one body contributes mass, in ascending order.
+pub(in crate::mpm) fn find_interface<const D: usize>(nodes: &mut Vec<usize>, bodies: &[Solver<D>]) {
+    nodes.clear();
+    let Some(first) = bodies.first() else { return };
+    let present = |node: usize| bodies.iter().filter(|body| body.grid().mass[node] > 0.0).count();
+    nodes.extend((0..first.grid().nodes()).filter(|node| present(*node) > 1));
 }
 
 /// Coupling by one velocity field for all bodies.
-pub(in crate::mpm) struct SharedVelocity(InterfaceNodes);
+pub(in crate::mpm) struct SharedVelocity(Vec<usize>);
 
 impl SharedVelocity {
-    pub(in crate::mpm) fn new<const D: usize>(bodies: &[Solver<D>]) -> Self {
-        Self(InterfaceNodes::new(bodies))
+    /// Creates the coupling, with capacity for all `nodes` of the grid that the bodies share.
+    pub(in crate::mpm) fn new(nodes: usize) -> Self {
+        Self(Vec::with_capacity(nodes))
     }
 
     fn share<const D: usize>(
@@ -61,7 +44,7 @@ impl SharedVelocity {
         bodies: &mut [Solver<D>],
         field: fn(&mut Grid<D>) -> &mut [Vector<D>],
     ) {
-        for &i in self.0.nodes() {
+        for &i in &self.0 {
             let (mut mass, mut sum) = (0.0, zeros());
             for body in bodies.iter_mut() {
                 let grid = &mut body.setup.grid;
@@ -81,20 +64,16 @@ impl<const D: usize> Coupling<D> for SharedVelocity {
     }
 
     fn columns(&self) -> Vec<Column<'_>> {
-        vec![Column::of_nodes("interface node", self.0.nodes())]
+        vec![Column::of_nodes("interface node", &self.0)]
     }
 
     fn reads_velocity(&self) -> bool {
         false
     }
 
-    fn nodes(&self) -> &[usize] {
-        self.0.nodes()
-    }
-
     fn couple(&mut self, at: CouplingPoint, bodies: &mut [Solver<D>], _: f64) {
         match at {
-            CouplingPoint::Mass => self.0.find(bodies),
+            CouplingPoint::Mass => find_interface(&mut self.0, bodies),
             CouplingPoint::Velocity | CouplingPoint::StrainVelocity => {
                 self.share(bodies, |grid| &mut grid.velocity);
             }

@@ -55,7 +55,7 @@ impl<const D: usize> Bodies<D> {
         let coupling: Option<Box<dyn Coupling<D>>> = match friction {
             _ if solvers.len() < 2 => None,
             Some(friction) => Some(Box::new(Contact::new(&solvers, friction))),
-            None => Some(Box::new(SharedVelocity::new(&solvers))),
+            None => Some(Box::new(SharedVelocity::new(solvers[0].grid().nodes()))),
         };
         let mut bodies = Self { solvers, coupling, schedule: StepSchedule::default() };
         bodies.compile(false);
@@ -65,11 +65,6 @@ impl<const D: usize> Bodies<D> {
     /// Returns the solver of each body.
     pub fn solvers(&self) -> &[Solver<D>] {
         &self.solvers
-    }
-
-    /// Returns the number of interface nodes in the current step.
-    pub fn interface_nodes(&self) -> usize {
-        self.coupling.as_ref().map_or(0, |coupling| coupling.nodes().len())
     }
 
     /// Returns the profile of a step of all bodies and their coupling.

@@ -17,8 +17,8 @@ fn total_force_on_the_grid_is_exact() {
     let particles = plate();
     let kernel = kernel::<2>(BasisName::Linear);
     let mut grid = kernel.grid(Vector::zeros(), 0.25, [6, 8], [false; 2]);
-    let value = Box::new(|t| Vector::<2>::new(3.0 * t, 0.5));
-    let mut pull = Traction::on(&particles, 0, Side::High, value);
+    let value = Box::new(|_: &Vector<2>, t| Vector::<2>::new(3.0 * t, 0.5));
+    let mut pull = Traction::at(&particles, 0, Side::High, Placement::Particles, value);
     let mut body = BodyOnGrid { particles: &particles, kernel: kernel.as_ref(), grid: &mut grid };
     assert_eq!(pull.add_force(2.0, &mut body), 16 * 4);
     let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
