@@ -36,11 +36,11 @@ fn fill<const D: usize, T>(
     fitted: impl Fn(usize, &QuadraturePoint<D>, &Fit<'_, D>) -> T,
 ) {
     column.clear();
-    for (k, point) in quadrature.all().iter().enumerate() {
+    for (k, point) in quadrature.all.iter().enumerate() {
         column.push(if let Some(p) = point.particle {
             own(p)
         } else {
-            fitted(k, point, &Fit { x: quadrature.x(), members: quadrature.members(point) })
+            fitted(k, point, &Fit { x: &quadrature.x, members: quadrature.members(point) })
         });
     }
 }
@@ -51,9 +51,9 @@ impl<const D: usize> Tls<D> {
         let Some(points) = &mut self.points else { return };
         self.quadrature.place(grid, particles);
         points.x.clear();
-        points.x.extend(self.quadrature.all().iter().map(|point| point.x));
+        points.x.extend(self.quadrature.all.iter().map(|point| point.x));
         points.vol.clear();
-        points.vol.extend(self.quadrature.all().iter().map(|point| point.volume));
+        points.vol.extend(self.quadrature.all.iter().map(|point| point.volume));
         let own = |p: usize| particles.mass[p];
         fill(&self.quadrature, &mut points.mass, own, |_, point, fit| {
             let sum = fit.members.iter().map(|&p| own(p)).sum();
@@ -242,12 +242,12 @@ mod tests {
         let mut quadrature = QuadraturePoints::default();
         quadrature.start(&grid, &particles);
         quadrature.place(&grid, &particles);
-        for point in quadrature.all() {
+        for point in &quadrature.all {
             let point = quadrature_points::QuadraturePoint {
                 x: point.centre.add_scalar(at - 0.5),
                 ..point.clone()
             };
-            let fit = Fit { x: quadrature.x(), members: quadrature.members(&point) };
+            let fit = Fit { x: &quadrature.x, members: quadrature.members(&point) };
             let linear = |x: f64| 3.0 - 0.7 * x;
             let free = fit.free(&point, |p| linear(particles.x[p][0]));
             assert_abs_diff_eq!(free, linear(point.x[0]), epsilon = 1e-12);

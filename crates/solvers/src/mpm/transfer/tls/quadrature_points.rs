@@ -35,9 +35,9 @@ pub(in crate::mpm) struct QuadraturePoint<const D: usize> {
 /// All quadrature points, and the particles sorted by cell.
 #[derive(Debug, Clone, Default)]
 pub(in crate::mpm) struct QuadraturePoints<const D: usize> {
-    all: Vec<QuadraturePoint<D>>,
+    pub(in crate::mpm) all: Vec<QuadraturePoint<D>>,
     /// Position of each particle (m), wrapped into the grid on periodic axes.
-    x: Vec<Vector<D>>,
+    pub(in crate::mpm) x: Vec<Vector<D>>,
     cell: Vec<usize>,
     /// Indices of the particles, cell by cell.
     order: Vec<usize>,
@@ -68,14 +68,6 @@ impl<const D: usize> QuadraturePoints<D> {
         self.order.resize(particles.len(), 0);
         self.first.resize(cells + 2, 0);
         most
-    }
-
-    pub(in crate::mpm) fn all(&self) -> &[QuadraturePoint<D>] {
-        &self.all
-    }
-
-    pub(in crate::mpm) fn x(&self) -> &[Vector<D>] {
-        &self.x
     }
 
     pub(in crate::mpm) fn members(&self, point: &QuadraturePoint<D>) -> &[usize] {
