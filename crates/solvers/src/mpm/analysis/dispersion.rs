@@ -69,32 +69,28 @@ impl WaveTransfer {
     /// Returns the transfer with this name and mass matrix; `None` if the step has no closed form.
     pub fn of(transfer: TransferChoice, mass: MassName) -> Option<Self> {
         use TransferChoice::{Named, With};
-        match (transfer, mass) {
-            (Named(TransferName::Flip), MassName::Consistent) => Some(Self::FlipConsistent),
-            (_, MassName::Consistent) => None,
-            (Named(name), MassName::Lumped) => Self::named(name),
-            (With(WithParameter::Xpic, terms), MassName::Lumped) => Some(Self::Xpic(terms)),
-            (With(WithParameter::Fmpm, terms), MassName::Lumped) => Some(Self::Fmpm(terms)),
-        }
-    }
-
-    fn named(name: TransferName) -> Option<Self> {
-        match name {
-            TransferName::Flip => Some(Self::Flip),
-            TransferName::Flip99 => Some(Self::Blend(0.99)),
-            TransferName::Flip95 => Some(Self::Blend(0.95)),
-            TransferName::Pic => Some(Self::Pic),
-            TransferName::Apic => Some(Self::Apic),
-            TransferName::Mls => Some(Self::Mls),
-            TransferName::Tpic => Some(Self::Tpic),
-            TransferName::Xpic2 => Some(Self::Xpic(2)),
-            TransferName::Xpic5 => Some(Self::Xpic(5)),
-            TransferName::Fmpm2 => Some(Self::Fmpm(2)),
-            TransferName::Fmpm4 => Some(Self::Fmpm(4)),
-            // TLS has no closed form, because it maps between particles and grid through quadrature
-            // points.
-            TransferName::Tls => None,
-        }
+        Some(match (transfer, mass) {
+            (Named(TransferName::Flip), MassName::Consistent) => Self::FlipConsistent,
+            (_, MassName::Consistent) => return None,
+            (With(WithParameter::Xpic, terms), _) => Self::Xpic(terms),
+            (With(WithParameter::Fmpm, terms), _) => Self::Fmpm(terms),
+            (Named(name), _) => match name {
+                TransferName::Flip => Self::Flip,
+                TransferName::Flip99 => Self::Blend(0.99),
+                TransferName::Flip95 => Self::Blend(0.95),
+                TransferName::Pic => Self::Pic,
+                TransferName::Apic => Self::Apic,
+                TransferName::Mls => Self::Mls,
+                TransferName::Tpic => Self::Tpic,
+                TransferName::Xpic2 => Self::Xpic(2),
+                TransferName::Xpic5 => Self::Xpic(5),
+                TransferName::Fmpm2 => Self::Fmpm(2),
+                TransferName::Fmpm4 => Self::Fmpm(4),
+                // TLS has no closed form, because it maps between particles and grid through
+                // quadrature points.
+                TransferName::Tls => return None,
+            },
+        })
     }
 }
 
