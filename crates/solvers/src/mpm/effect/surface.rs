@@ -122,7 +122,6 @@ impl Surface {
         Some(Self { layer, placement, axis, outwards, area, depth, column, is_integrated, below })
     }
 
-    /// Returns the outward normal in the reference configuration.
     pub(super) fn normal<const D: usize>(&self) -> Vector<D> {
         Vector::from_fn(|i, _| if i == self.axis { self.outwards } else { 0.0 })
     }

@@ -132,7 +132,7 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{Hencky, LinearElastic, NeoHookean};
+    use crate::mpm::{Hencky, NeoHookean};
     use approx::assert_relative_eq;
     use rstest::rstest;
 
@@ -167,20 +167,5 @@ mod tests {
         let expected = -50.0 * libm::log(1.2) * 1.2;
         assert_relative_eq!(bar.sigma[0][(0, 0)], expected, max_relative = 1e-14);
         assert_relative_eq!(bar.vol[0], 1.0, max_relative = 1e-15);
-    }
-
-    /// The stress is `-E alpha (T - T0)/(1 - 2 nu)` at the start and after a temperature change.
-    #[test]
-    fn rate_form_subtracts_the_thermal_strain() {
-        let (mut plate, mut law) = (warm::<2>(), LinearElastic::new(50.0, 0.3));
-        let mut expansion = ThermalExpansion::in_rate_form(1e-3, 20.0, 50.0, 0.3);
-        expansion.start(&mut law, &mut plate);
-        let expected = |t: f64| Matrix::<2>::identity() * (-50.0 * 1e-3 * (t - 20.0) / 0.4);
-        assert_relative_eq!(plate.sigma[0], expected(30.0), max_relative = 1e-14);
-        plate.temperature[0] = 17.0;
-        expansion.before_stress(&mut plate);
-        law.update(&mut StressUpdate::new(0.1, &mut plate));
-        expansion.after_stress(&mut plate);
-        assert_relative_eq!(plate.sigma[0], expected(17.0), max_relative = 1e-13);
     }
 }

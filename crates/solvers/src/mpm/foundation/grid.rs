@@ -213,15 +213,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    #[test]
-    fn numbers_and_indices_agree() {
-        let grid = Grid::<3>::new(Vector::zeros(), 0.5, [2, 3, 4], [false; 3], [3, 4, 5]);
-        for node in 0..grid.nodes() {
-            let index = std::array::from_fn(|axis| grid.index_on_axis(node, axis));
-            assert_eq!(grid.node(&index), node);
-        }
-    }
-
     proptest! {
         #[test]
         fn cell_plus_position_in_cell_is_the_position(x in -2.0..20.0_f64, periodic: bool) {

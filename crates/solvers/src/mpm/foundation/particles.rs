@@ -353,27 +353,4 @@ mod tests {
         assert_relative_eq!(particles.mass.iter().sum::<f64>(), 6.0, max_relative = 1e-14);
         assert_relative_eq!(particles.x[0], Vector::<2>::new(0.0625, 1.0625));
     }
-
-    #[test]
-    fn round_body_has_whole_lattice_cells() {
-        let (from, to) = (Vector::<2>::new(-2.0, -2.0), Vector::<2>::new(2.0, 2.0));
-        let block = Block { from, to, density: 1.0 };
-        let ring = |x: &Vector<2>| (0.75..=1.25).contains(&x.norm());
-        let particles = Particles::fill_where(&block, 0.125, 2, ring);
-        // In units of half a spacing, the coordinates of the centres are odd numbers, and the radii
-        // are 24 and 40.
-        let odd = || (-63..64_i32).step_by(2);
-        let squares = odd().flat_map(|a| odd().map(move |b| a * a + b * b));
-        let inside = squares.filter(|square| (24 * 24..=40 * 40).contains(square)).count();
-        assert_eq!(particles.len(), inside);
-        assert!(particles.vol0.iter().all(|vol| *vol == 0.0625 * 0.0625));
-    }
-
-    #[test]
-    fn filled_body_keeps_its_length_between_nodes() {
-        let (from, to) = (Vector::<1>::new(0.0), Vector::<1>::new(1.0));
-        let particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.15 / 20.0, 10);
-        assert_eq!(particles.len(), 174);
-        assert_relative_eq!(particles.vol0.iter().sum::<f64>(), 1.0, max_relative = 1e-14);
-    }
 }

@@ -96,17 +96,11 @@ fn isotropic_compression_follows_swelling_and_compression_lines(#[values(1, 7)] 
     assert_abs_diff_eq!(q, 0.0, epsilon = 1e-10);
 }
 
-/// Uniaxial compression inside the yield surface has `q = 2 r (p - p0)` and is reversible. A cycle
-/// of volume and shear is not reversible: `q = 3 r (p - p0)/kappa eps_q` remains.
+/// A cycle of volume and shear inside the yield surface is not reversible:
+/// `q = 3 r (p - p0)/kappa eps_q` remains.
 #[test]
-fn elastic_strain_matches_closed_forms() {
+fn elastic_cycle_leaves_a_shear_stress() {
     let mut soil = specimen(CamClay::example(1000.0));
-    let [p, q] = squeeze(&mut soil, [0.02, 0.0], 5);
-    assert_relative_eq!(p, 100.0 * libm::exp(1.0), max_relative = 1e-12);
-    assert_relative_eq!(q, 1.2 * (p - 100.0), max_relative = 1e-12);
-    let [p, q] = squeeze(&mut soil, [-0.02, 0.0], 3);
-    assert_relative_eq!(p, 100.0, max_relative = 1e-12);
-    assert_abs_diff_eq!(q, 0.0, epsilon = 1e-10);
     for strain in [[0.01 / 3.0; 2], undrained(0.003), [-0.01 / 3.0; 2], undrained(-0.003)] {
         squeeze(&mut soil, strain, 2);
     }

@@ -15,8 +15,6 @@ mod prestressed;
 mod rate_paths;
 mod registry;
 #[cfg(test)]
-mod soil_paths;
-#[cfg(test)]
 mod specimen;
 mod spectral;
 mod stress_update;

@@ -143,9 +143,3 @@ pub(super) fn richardson<const N: usize>(mut rows: Vec<Vector<N>>, base: i32) ->
     }
     (rows[0], order)
 }
-
-/// Returns Young's modulus (Pa) and Poisson's ratio from the bulk and shear moduli (Pa).
-pub(super) fn isotropic(bulk: f64, mu: f64) -> (f64, f64) {
-    let young = 9.0 * bulk * mu / (3.0 * bulk + mu);
-    (young, (3.0 * bulk - 2.0 * mu) / (2.0 * (3.0 * bulk + mu)))
-}

@@ -43,7 +43,6 @@ const LEAST_WEIGHT: f64 = 1e-12;
 /// Maximum number of stored entries of the tangent (4 GB).
 const MOST_ENTRIES: usize = 1 << 29;
 
-/// Basis function of one node at a particle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NodeFunction<const D: usize> {
     pub(super) node: usize,
@@ -68,7 +67,6 @@ pub(super) struct StepEquations<const D: usize> {
     band: usize,
 }
 
-/// Stresses and residual at one iterate.
 pub(super) struct Iterate<const D: usize> {
     /// Nodal displacement increments (m).
     pub(super) increment: Vec<Vector<D>>,

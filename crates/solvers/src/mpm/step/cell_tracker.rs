@@ -65,7 +65,6 @@ impl<const D: usize> CellTracker<D> {
     }
 }
 
-/// Crossings and departures in one update of cells.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 struct CellChanges {
     crossings: u64,

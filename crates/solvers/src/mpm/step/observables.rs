@@ -112,40 +112,6 @@ pub(in crate::mpm) fn wall_reaction<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::foundation::algebra::{Matrix, Vector};
-    use crate::mpm::foundation::particles::Block;
-    use approx::assert_relative_eq;
-
-    fn two_particles<const D: usize>() -> Particles<D> {
-        let mut to = Vector::from_element(1.0);
-        to[0] = 2.0;
-        let block = Block { from: Vector::<D>::zeros(), to, density: 3.0 };
-        Particles::fill(&block, 1.0, 1)
-    }
-
-    #[test]
-    fn angular_momentum_is_x_cross_m_v() {
-        let mut body = two_particles::<3>();
-        (body.x[0], body.v[0]) =
-            (Vector::<3>::new(1.0, 2.0, 3.0), Vector::<3>::new(-4.0, 5.0, 0.5));
-        let totals = body.totals(|_| None);
-        let expected = body.x[0].cross(&body.v[0]) * body.mass[0];
-        for i in 0..3 {
-            assert_relative_eq!(totals.angular_momentum[i], expected[i], max_relative = 1e-14);
-        }
-        assert_relative_eq!(totals.angular_momentum_size, expected.norm(), max_relative = 1e-14);
-    }
-
-    #[test]
-    fn opposite_momenta_have_a_size_but_no_sum() {
-        let mut body = two_particles::<2>();
-        (body.v[0], body.v[1]) = (Vector::<2>::new(0.0, 2.0), Vector::<2>::new(0.0, -2.0));
-        let totals = body.totals(|_| None);
-        assert_eq!((totals.mass, totals.momentum, totals.momentum_size), (6.0, [0.0; 3], 12.0));
-        assert_eq!(totals.kinetic_energy, 12.0);
-        assert_eq!(totals.angular_momentum, [0.0, 0.0, -6.0]);
-        assert_eq!(totals.angular_momentum_size, 12.0);
-    }
 
     #[test]
     fn tensors_are_written_row_by_row() {

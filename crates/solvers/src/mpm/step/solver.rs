@@ -128,7 +128,6 @@ impl<const D: usize> Solver<D> {
         Tally::take(&[self.setup.kernel.tally()])
     }
 
-    /// Runs one pass of a step of length `dt` (s).
     pub(in crate::mpm) fn run(&mut self, pass: Pass, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
         match pass {

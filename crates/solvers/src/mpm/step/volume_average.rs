@@ -145,7 +145,6 @@ impl<const D: usize> VolumeAverage<D> {
     }
 }
 
-/// Returns `ratio^(1/D)`.
 fn root<const D: usize>(ratio: f64) -> f64 {
     match D {
         1 => ratio,
