@@ -63,7 +63,10 @@ fn breaches_of_code_rules_are_found() {
         places(&rules::platform_calls(&planted)),
         ["crates/solvers/src/mpm/utils.rs:1", "src/a.rs:1"]
     );
-    assert!(rules::mentions(&planted, &[&["serde_yaml"]], "crates/suites/src/suite/").is_empty(), "only tests");
+    assert!(
+        rules::mentions(&planted, &[&["serde_yaml"]], "crates/suites/src/suite/").is_empty(),
+        "only tests"
+    );
     assert_eq!(places(&words::twice(&planted, &[])), ["src/b.rs:3"]);
     let tests = with_tests(&owned(&[(
         "crates/solvers/src/fem/tests/time.rs",

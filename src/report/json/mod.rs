@@ -5,9 +5,7 @@ use crate::report::columns::cost::json_columns as cost_columns;
 use crate::report::columns::timed_level::{json_columns as timed_columns, rows, timing};
 use crate::report::columns::{interval, json_objects, number};
 use crate::report::text::diagnosis::paragraph;
-use crate::verify::{
-    CaseOutcome, Cause, ChangedRun, Diagnosis, Ranking, TimedSuite, by_transfers,
-};
+use crate::verify::{CaseOutcome, Cause, ChangedRun, Diagnosis, Ranking, TimedSuite, by_transfers};
 use serde_json::{Value, json};
 
 /// Converts rankings to JSON, one entry for each problem. `work` is the name of the unit of work.

@@ -96,9 +96,9 @@ impl Bar {
         &self.displacement
     }
 
-    /// Returns the nodal velocities (m/s). With [`Start::HalfStepBack`] the stored velocities are half
-    /// a step old. They are advanced to the current time with the last acceleration, which is accurate
-    /// to second order.
+    /// Returns the nodal velocities (m/s). With [`Start::HalfStepBack`] the stored velocities are
+    /// half a step old. They are advanced to the current time with the last acceleration, which is
+    /// accurate to second order.
     pub fn nodal_velocities(&self) -> impl Iterator<Item = f64> {
         self.velocity.iter().zip(&self.acceleration).map(|(v, a)| v + self.lag * a)
     }

@@ -133,7 +133,8 @@ impl<const D: usize> Material<D> for LinearElastic {
     }
 
     fn in_plane_stress(&self) -> Option<Box<dyn Material<D>>> {
-        Some(Box::new(RatePlaneStress::new(*self)))
+        let plate = |lambda| Self { lambda, ..*self };
+        Some(Box::new(RatePlaneStress::new(self.lambda, self.mu, plate)))
     }
 
     /// Returns the work of the stress in 1-D. The rate integrates to `sigma = M eps` with

@@ -4,7 +4,6 @@
 //! account for its current thickness.
 
 use super::contract::Material;
-use super::linear_elastic::LinearElastic;
 use super::stress_update::{StressBlock, StressUpdate};
 use crate::mpm::foundation::algebra::{Matrix, det};
 use crate::mpm::foundation::particles::Particles;
@@ -73,22 +72,22 @@ pub(super) fn lambda_of_plate(lambda: f64, mu: f64) -> f64 {
     2.0 * mu * thinning(lambda, mu)
 }
 
-/// A plate of linear elasticity in rate form, `D_33 = -nu/(1 - nu) (D_11 + D_22)`.
-pub(super) struct RatePlaneStress {
+/// A plate with a law in rate form, `D_33 = -nu/(1 - nu) (D_11 + D_22)`.
+pub(super) struct RatePlaneStress<L> {
     /// Law for the in-plane strains, with the first Lame parameter of a plate.
-    plane: LinearElastic,
+    plane: L,
     /// Ratio `nu/(1 - nu)` of out-of-plane contraction to in-plane area strain.
     thinning: f64,
 }
 
-impl RatePlaneStress {
-    pub(super) fn new(LinearElastic { lambda, mu }: LinearElastic) -> Self {
-        let plane = LinearElastic { lambda: lambda_of_plate(lambda, mu), mu };
-        Self { plane, thinning: thinning(lambda, mu) }
+impl<L> RatePlaneStress<L> {
+    /// Creates a plate. `with_lambda` returns the law for a given first Lame parameter (Pa).
+    pub(super) fn new(lambda: f64, mu: f64, with_lambda: impl Fn(f64) -> L) -> Self {
+        Self { plane: with_lambda(lambda_of_plate(lambda, mu)), thinning: thinning(lambda, mu) }
     }
 }
 
-impl<const D: usize> Material<D> for RatePlaneStress {
+impl<const D: usize, L: Material<D>> Material<D> for RatePlaneStress<L> {
     fn reads_deformation(&self) -> bool {
         false
     }
