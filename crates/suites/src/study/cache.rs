@@ -15,7 +15,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Last line of a complete file. Without this line, a truncated file could appear valid.
+/// Last line of a complete file. Without this line, a truncated file could appear valid, because
+/// the last keys are optional.
 const END: &str = "# end\n";
 
 /// A folder that stores the results of finished levels.

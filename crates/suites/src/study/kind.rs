@@ -37,7 +37,7 @@ pub struct StepWarning {
     pub case: usize,
     /// Text of the warning.
     pub text: String,
-    /// Whether the step is too long, which may be intended.
+    /// Whether the step is too long. A suite may use such a step deliberately.
     pub is_too_long: bool,
 }
 
@@ -51,7 +51,8 @@ pub(crate) trait CaseRunner: Send + Sync {
         Vec::new()
     }
 
-    /// Passes on the first run that failed or whose energy grew, or else the last run.
+    /// Passes the first run that failed or whose energy grew, or else the last run, to the
+    /// callback.
     fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), SeriesError> {
         Err("its study has no runs to show".into())
     }

@@ -62,14 +62,16 @@ impl<'a> Runner<'a> {
         self.cases.units()
     }
 
-    /// Returns the warnings about time steps, which are found without a run.
+    /// Returns warnings, found without a run, about time steps that are longer than the predicted
+    /// stable step or differ from the requested step.
     pub fn warnings(&self) -> Vec<StepWarning> {
         let text = |warning: &StepWarning| format!("{}::{}", self.suite.name, warning.text);
         let named = |warning| StepWarning { text: text(&warning), ..warning };
         self.cases.warnings().into_iter().map(named).collect()
     }
 
-    /// Runs all cases in parallel. The outcomes do not depend on the number of threads.
+    /// Runs all cases in parallel. The outcomes are in suite order and do not depend on the number
+    /// of threads.
     pub fn run(&self, progress: Progress<'_>) -> SuiteOutcome {
         let count = self.suite.case_names().len();
         self.outcome((0..count).into_par_iter().map(|i| self.case(i, progress)).collect())

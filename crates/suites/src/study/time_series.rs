@@ -162,6 +162,7 @@ fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<St
     [u].into_iter().chain(invariants).chain(fields.filter_map(error)).collect()
 }
 
+/// Returns the fields of a solver that reports only samples, with the names of the built-in solver.
 fn sampled_fields(samples: &Samples) -> Vec<StateField> {
     let all = [
         ("X", &samples.label),

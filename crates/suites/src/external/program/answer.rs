@@ -252,7 +252,7 @@ impl Answer {
         }
     }
 
-    /// Converts the answer to a request for values. Otherwise returns the answer as an error.
+    /// Converts the answer to a request for values. The error is any other answer.
     pub(super) fn request(self) -> Result<ValueRequest, Box<Self>> {
         match self {
             Self::BodyForce { t, reference_position, displacement, body } => {

@@ -98,6 +98,7 @@ impl Connection {
         Ok(Self { child, requests, answers, longest, last_bytes, listener, silence })
     }
 
+    /// Sets the maximum length of later answers (bytes).
     pub(super) fn expect_up_to(&mut self, bytes: usize) {
         self.longest.store(SHORT.max(bytes), Ordering::Relaxed);
     }
@@ -202,6 +203,7 @@ fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T
     }
 }
 
+/// Creates the command. `memory` limits the address space (bytes), also of child processes.
 fn limited(command: &[String], memory: Option<u64>) -> Result<Command, ProgramError> {
     let Some(memory) = memory else {
         let mut process = Command::new(&command[0]);

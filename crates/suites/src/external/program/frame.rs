@@ -75,7 +75,8 @@ struct Announced {
     bytes: usize,
 }
 
-/// Returns the announced number of bytes after the line; zero for an invalid message.
+/// Returns the announced number of bytes after the line; zero for an invalid message, which the
+/// parser reports later.
 fn announced(line: &[u8]) -> usize {
     // A line without the key "bytes" need not be parsed here.
     if !line.windows(7).any(|word| word == b"\"bytes\"") {

@@ -17,7 +17,7 @@ pub(super) struct Inquiry {
     fields: Option<Arc<dyn ProblemFields>>,
     faces: Vec<ProblemFace>,
     loads: Vec<ProblemLoad>,
-    /// Default points of requests (m): those of the particles, or the solver's own points.
+    /// Default points of requests: reference positions (m) of particles or of the solver's points.
     labels: Vec<f64>,
     bodies: Vec<usize>,
     /// Body force at `labels`, created by the first request for a body force.
@@ -47,7 +47,8 @@ impl Inquiry {
         }
     }
 
-    /// Sets the default points of requests (m, D numbers each). Refuses points outside the bodies.
+    /// Sets the default points of requests (m, D numbers each). Points outside the bodies are an
+    /// error from version 2 of the protocol on.
     pub(super) fn set_points(&mut self, labels: &[f64]) -> Result<(), ProgramError> {
         let invalid = |reason| ProgramError::Protocol(format!("sent invalid points: {reason}"));
         self.bodies = self.bodies_of(labels).map_err(invalid)?;

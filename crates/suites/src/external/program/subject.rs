@@ -53,7 +53,7 @@ pub(super) struct ProgramSubject {
 }
 
 impl ProgramSubject {
-    /// Without `points`, the sample points are the particles.
+    /// Creates the level. Without `points`, the sample points are the particles.
     pub(super) fn new(
         connection: Connection,
         mut inquiry: Inquiry,

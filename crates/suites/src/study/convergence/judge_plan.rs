@@ -151,7 +151,8 @@ fn begins(problem: &Problem) -> [bool; 2] {
     [first[0] > AT_REST * ever[0], first[1] > AT_REST * ever[1]]
 }
 
-/// Even numbers of sampling intervals along each axis and in time: `COARSE` in 3-D.
+/// Number of sampling intervals along each axis and in time, `COARSE` in 3-D. The numbers are even,
+/// so the middle is a sampling point.
 const FINE: usize = 20;
 const COARSE: usize = 8;
 
@@ -200,7 +201,7 @@ fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     lattice(&scene.from, &scene.to, per_axis).filter(inside).collect()
 }
 
-/// Returns the theoretical exponent k in work ~ spacing^-k.
+/// Returns the theoretical exponent k in work ~ spacing^-k, with the step numbers of the levels.
 fn growth(plan: &ConvergencePlan) -> f64 {
     let d = plan.scene.dimension() as f64;
     let levels = &plan.refine.levels;

@@ -164,7 +164,7 @@ struct Lattice {
 }
 
 impl Lattice {
-    /// Creates the lattice of positions with `d` coordinates each; `None` if they form no lattice.
+    /// Creates the lattice of positions in any order (`d` coordinates each), if they form one.
     fn of(labels: &[f64], d: usize) -> Option<Self> {
         let axis = |axis: usize| {
             let mut all: Vec<f64> = labels.iter().skip(axis).step_by(d).copied().collect();
@@ -234,7 +234,8 @@ impl FineSteps {
         Ok(Self { until: case.until, dimension: now.dimension, order, states })
     }
 
-    /// Copies the values of the particle with reference position `wanted`; NaN if there is none.
+    /// Copies the values of the particle with reference position `wanted` at the instant nearest to
+    /// `t`; NaN if there is no such particle.
     fn find(&self, field: fn(&Samples) -> &[f64], wanted: &[f64], t: f64, into: &mut [f64]) {
         let samples = &self.states[nearest_instant(t, self.until, self.states.len())];
         match self.order.binary_search_by(|p| compare(label(samples, *p), wanted)) {

@@ -99,10 +99,12 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
 /// Number of power iterations in the prediction of an automatic time step.
 pub(crate) const ROUNDS: u32 = 40;
 
-/// Number of power iterations in the first prediction for a time step from the suite.
+/// Number of power iterations in the first prediction for a time step from the suite. Each
+/// iteration costs as much as a step.
 const FEW: u32 = 6;
 
-/// Fraction of the first limit, up to 50 % too large, above which a second one is predicted.
+/// Fraction of the first predicted limit above which a second prediction is made. With few
+/// iterations, the first limit is up to 50 % too large.
 const NEAR: f64 = 0.6;
 
 /// A level with its time step, and the stable time step (s) if it is known.
@@ -113,7 +115,8 @@ type Stepped = (LevelPlan, Option<f64>);
 pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, SubjectError>>>);
 
 impl StableSteps {
-    /// Returns the level with its time step, and the stable step if automatic or exceeded.
+    /// Returns the level with its time step. The stable step is included if the time step is
+    /// automatic or too long.
     pub(crate) fn of(
         &self,
         plan: &ConvergencePlan,
@@ -180,6 +183,8 @@ fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }
 
+/// Returns a warning about a step that is longer than the stable step or differs from the requested
+/// step, and whether the step is too long.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<(String, bool)> {
     let clock = case.clock(plan, level.dt)?;
     let (dt, name, cells) = (clock.dt(), &case.name, level.cells);

@@ -59,7 +59,8 @@ impl TimingJob<'_> {
     }
 }
 
-/// Measures the time (s) of the steps of a solver on a level, until the run ends or fails.
+/// Measures the time (s) of the steps of a solver on a level, until the run ends or fails. The
+/// response time of external solvers is included.
 fn seconds_of(
     plan: &ConvergencePlan,
     case: &Case,

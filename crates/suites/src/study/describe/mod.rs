@@ -34,8 +34,8 @@ pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     rows
 }
 
-/// Returns the parameters of a stability study that differ between runs. The swept and the sought
-/// parameter have the name of their row.
+/// Returns the parameters of a stability study that differ between runs: the swept and the sought
+/// parameter, each with the name of its row, and the parameters that depend on them.
 fn varied(suite: &Suite) -> Vec<(String, Option<&'static str>)> {
     let StudyPlan::Stability(plan) = &suite.study else { return Vec::new() };
     let mut varied = vec![(plan.swept.clone(), Some("sweep"))];

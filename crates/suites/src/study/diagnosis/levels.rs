@@ -11,13 +11,15 @@ use crate::verify::{
     Verdict, observed_order,
 };
 
-/// Maximum share of the difference from the theoretical order that remains without coarse levels.
+/// Maximum share of the difference from the theoretical order that remains without coarse levels,
+/// if these are the cause.
 const CLOSER: f64 = 0.5;
 
-/// Maximum distance of the order of the finest two levels from the theoretical order.
+/// Maximum difference between the order of the finest two levels and the theoretical order, if
+/// coarse levels are the cause.
 const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
-/// Minimum error that is as large as the solution, as a fraction of the largest exact value.
+/// Minimum error that counts as large as the solution, as a fraction of the largest exact value.
 const WHOLE: f64 = 0.1;
 
 /// Maximum ratio of the largest to the smallest error that counts as constant.
@@ -79,7 +81,8 @@ fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
     ((last - p).abs() <= NEAR && first < p - NEAR).then_some((first, last))
 }
 
-/// Returns the coarsest cell size, relative to the length scale of the solution, and a sentence.
+/// Returns the coarsest cell size, relative to the length scale of the solution, and a sentence
+/// with both numbers.
 fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     let length = sizes(known.plan.exact.as_ref()?, known.session.case.until).length();
     let coarsest = known.levels.first()?.h;

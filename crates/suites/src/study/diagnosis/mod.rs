@@ -184,6 +184,8 @@ fn changed_plans(
     changed
 }
 
+/// Returns the size of the judged quantity in `smaller`, a plan with a smaller motion, over that in
+/// `plan`. Each size is divided by the divisor of the errors.
 fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
     let divisor = |plan: &ConvergencePlan| plan.scale.unwrap_or(1.0);
     let sizes = match (&plan.sum, &smaller.sum, plan.of) {

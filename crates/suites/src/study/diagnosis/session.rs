@@ -61,7 +61,8 @@ impl<'a> Session<'a> {
         Ok(found)
     }
 
-    /// Runs a changed plan; `None` if it exceeds the budget or cannot be set up.
+    /// Runs a changed plan; `None` if it exceeds the budget or cannot be set up, which is no
+    /// evidence.
     pub(super) fn changed(&self, change: &str, plan: &ConvergencePlan) -> Option<Convergence> {
         let cost = self.slowness.get() * estimate_of(plan).seconds;
         if !(cost <= self.left.get()) {

@@ -12,10 +12,12 @@ use crate::verify::{Axis, KnownCause, KnownCauseKind, LevelOutcome, StepKind};
 /// Fraction of the predicted stable step that is used when levels run again.
 const OF_PREDICTED: f64 = 0.5;
 
-/// Without a prediction, longer steps (relative to the time of a wave in a cell) are doubtful.
+/// Steps above this fraction of the time in which a wave crosses a cell are doubtful, if no stable
+/// step is predicted.
 const IN_QUESTION: f64 = 0.5;
 
-/// Without a prediction, levels run again with this step, relative to the same time.
+/// Step of repeated levels if no stable step is predicted, as a fraction of the time in which a
+/// wave crosses a cell.
 const CAUTIOUS: f64 = 0.2;
 
 /// Maximum ratio of the errors with a stable and with the original step, for which the original

@@ -228,7 +228,8 @@ impl GradientRun<'_> {
         }
     }
 
-    /// Returns the stored numbers that `what` describes, or those of `run`, which are then stored.
+    /// Returns the stored numbers that `what` describes. Otherwise stores and returns those of
+    /// `run`.
     fn kept(
         &self,
         problem: &LevelProblem,
@@ -239,7 +240,8 @@ impl GradientRun<'_> {
         if self.context.cache.is_none() {
             return run().numbers();
         }
-        // The key includes everything that a parameter changes.
+        // The key includes all that a parameter changes: numbers in the message, masses,
+        // velocities.
         let numbers = serde_json::to_string(problem)
             .map_err(|error| GradientError::Failed(error.to_string()))?;
         let particles = [&problem.particles.mass, &problem.particles.velocity];
@@ -333,7 +335,8 @@ fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, 
 
 type ValueAndSlope = (f64, f64);
 
-/// Computes the exact derivative, including that of an initial velocity.
+/// Computes the exact total derivative of the functional at the end of the run. If the initial
+/// velocity depends on the parameter, its effect on the motion is included.
 pub(super) fn exact_derivative(
     plan: &GradientPlan,
     one: &Differentiated,

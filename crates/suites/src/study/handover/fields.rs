@@ -8,8 +8,8 @@ use crate::subject::PlaneState;
 use crate::suite::model::Scene;
 use crate::suite::scene::numbers::{LoadNumbers, NumberField};
 
-/// Radius, relative to the body, at which stresses on the axis are evaluated: r/R is undefined
-/// there.
+/// Radius (relative to the size of the body) at which stresses on the axis are evaluated, because
+/// the hoop stretch r/R is undefined at R = 0.
 const NEAR_AXIS: f64 = 1e-8;
 
 pub(super) struct SceneFields {

@@ -63,7 +63,8 @@ pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     needs
 }
 
-/// Lists the capabilities that `suite` requires and `solver` lacks.
+/// Lists the capabilities that `suite` requires and `solver` lacks; empty for a study that external
+/// solvers cannot run.
 pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
     study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
 }
@@ -92,7 +93,8 @@ pub fn under_on(
     })
 }
 
-/// Copies the plan with a law that `solver` supports; `None` if this is not necessary or possible.
+/// Copies the plan with a law that `solver` supports. `None` if `solver` supports the law of the
+/// plan or no law, or if the results depend on the law.
 fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<ConvergencePlan> {
     let needs = needs(plan);
     let lacking = if plan.any_method.any_law { solver.lacks(&needs).len() } else { 0 };

@@ -12,7 +12,8 @@ use crate::verify::{Axis, Quantity, rounding_bound, single_precision_spacing};
 /// Another error changes the observed order if it exceeds this fraction of the error due to cells.
 const SEEN: f64 = 0.3;
 
-/// Another error becomes visible after a few refinements above this fraction of the error of cells.
+/// Fraction of the discretisation error above which another error becomes visible after a few
+/// refinements.
 const SOON: f64 = 0.003;
 
 /// Estimates the interpolation error (m) of linear functions: h^2/8 times the second derivative.
@@ -21,7 +22,8 @@ fn of_cells(preflight: &Preflight<'_>, h: f64) -> f64 {
     0.125 * h * h * curvature
 }
 
-/// Reports an error (m) that is visible on a level (warning) or on the next ones (note).
+/// Reports an error (m): a warning if it is visible on a level of the suite, and a note if it would
+/// be visible on one of the next finer levels.
 fn floor_finding(
     preflight: &Preflight<'_>,
     size: f64,
@@ -85,6 +87,7 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<(f64, String, &
     Some((neglected * motion.largest_displacement().min(early), origin, remedy))
 }
 
+/// Reports the model error of an exact solution that is linearised or assumes small strains.
 pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     if plan.refine.axis != Axis::Space || plan.manufactured().is_some() {
@@ -100,7 +103,8 @@ pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 /// Minimum number of levels whose error must be larger than the rounding bound.
 const LEVELS: usize = 4;
 
-/// Reports the first level whose predicted error is below the rounding bound.
+/// Reports the first level whose predicted error is below the rounding bound: a warning if fewer
+/// than [`LEVELS`] levels are above the bound, otherwise a note.
 pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let case = preflight.of_an_order().find(|case| case.method.is_single_precision());
@@ -146,7 +150,8 @@ pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_help(&help)]
 }
 
-/// Returns the factor by which rounding errors decrease if the body is centred at the origin.
+/// Returns the factor by which rounding errors decrease if the body is centred at the origin;
+/// `None` if they do not decrease.
 fn nearer_origin(motion: &Extremes, spacing: f64) -> Option<f64> {
     let lengths = motion.reach.iter().map(|(low, high)| high - low);
     let half = 0.5 * lengths.filter(|length| length.is_finite()).fold(0.0, f64::max);
@@ -159,7 +164,8 @@ fn two_digits(factor: f64) -> f64 {
     text.parse().unwrap_or(factor)
 }
 
-/// Maximum ratio of the tolerance to the residual.
+/// Maximum ratio of the tolerance to the residual. A larger tolerance could accept a wrong
+/// solution.
 const MOST: f64 = 100.0;
 
 /// Reports, as a note, a tolerance that exceeds the residual by orders of magnitude.

@@ -42,7 +42,8 @@ pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_label(&label).with_help(&help)]
 }
 
-/// Whether the exact motion moves a particle by more than half of the particle spacing.
+/// Whether the exact motion moves a particle by more than half of the particle spacing, the
+/// distance of the particles of an aligned body from the cell faces.
 fn crosses(preflight: &Preflight<'_>, level: &LevelPlan) -> bool {
     let dimension = preflight.plan.scene.dimension();
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, dimension)).unwrap_or(1);

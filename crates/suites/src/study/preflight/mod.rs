@@ -71,7 +71,8 @@ pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     findings
 }
 
-/// Warns of a time step that is too long for waves, particles or heat conduction.
+/// Warns of a time step that is too long for waves, particles or heat conduction. A step that is
+/// equal on all levels of a study in space is a note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let found = [too_long(preflight), too_long_for_heat(preflight), fixed(preflight)];
     found.into_iter().flatten().collect()

@@ -41,7 +41,8 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 pub(crate) const HELP: &str = "list `damping` or `local_damping` in `loads`, and run until the body is \
                                at rest";
 
-/// Whether a case without dissipation does not start in the stated equilibrium.
+/// Whether a case without dissipation does not start in the stated equilibrium. External solvers
+/// are assumed to have no dissipation.
 pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = plan.exact.as_ref().filter(|exact| exact.at_rest) else { return false };
     plan.steps == StepKind::Time

@@ -60,7 +60,8 @@ impl Suite {
     }
 }
 
-/// Loads a convergence study with exact motion and initial state multiplied by `factor`.
+/// Loads a convergence study with exact motion and initial state, but not the loads, multiplied by
+/// `factor`. Refuses a scaled motion that is not a solution.
 pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diagnostic> {
     with_changes(source, |spec| scale_amplitude(spec, factor))
 }

@@ -409,7 +409,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Refuses the first entry that applies: a flag, the place in the file, and a text.
+    /// Refuses the first entry whose flag is true. An entry also has the keys of the refused value
+    /// from the top of the file, and the text for the `diagnostic`.
     pub(crate) fn refuse_first(
         &self,
         entries: &[(bool, &str, &str)],

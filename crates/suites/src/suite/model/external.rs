@@ -58,7 +58,8 @@ impl ConvergencePlan {
         plan
     }
 
-    /// Sets the requirements of `run --gate` on a case, unless the suite states an expectation.
+    /// Sets the requirements of `run --gate` on a case. An expectation of the suite remains, unless
+    /// `terms` replace it.
     fn gate(&self, case: &mut Case, solver: ExternalMethod<'_>, terms: &GateTerms) {
         let has_terms = terms.order.is_some() || terms.error_below.is_some();
         if case.expectation.is_some() && terms.skip.is_none() && !has_terms {

@@ -88,7 +88,8 @@ pub struct Case {
     pub expectation: Option<Expectation>,
     /// Expectation for a full run, if different.
     pub expectation_in_full: Option<Expectation>,
-    /// Role in `run --gate`, for an external solver without an expectation.
+    /// Role in `run --gate` (required, exempt or excepted) of an external solver without an
+    /// expectation.
     pub gating: Option<Gating>,
 }
 
@@ -146,7 +147,8 @@ impl Against {
 }
 
 impl ConvergencePlan {
-    /// Returns the steps of about `dt` (s) of a run until `until` (s), compared with `against`.
+    /// Returns the steps of a run that ends at `until` (s) and is compared with `against`, for a
+    /// requested step `dt` (s).
     pub fn clock(&self, against: Against, until: f64, dt: f64) -> Option<Clock> {
         if against.is_computed() && self.steps == StepKind::Time {
             return Clock::with_common_instants(until, dt, self.instants);
@@ -169,7 +171,8 @@ impl ConvergencePlan {
         self.exact.is_some() || self.conduction.is_some()
     }
 
-    /// Whether nothing reveals the whole error. Shorter steps reveal only that of the time step.
+    /// Whether there are no formulas, no FEM reference and no fine-grid reference. A reference with
+    /// shorter steps reveals only the error of the time step.
     pub(crate) fn is_truthless(&self) -> bool {
         let has_fine_grid = matches!(self.same_method, Some(SameMethod::FineGrid(_)));
         !self.has_formulas() && self.reference.is_none() && !has_fine_grid

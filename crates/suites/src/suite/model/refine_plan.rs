@@ -22,7 +22,7 @@ pub struct RefinePlan {
 /// One refinement level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelPlan {
-    /// Number of cells along the first axis of the grid, or of the body without a grid.
+    /// Number of cells along the first axis of the grid, or of the body if no grid is stated.
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
@@ -91,7 +91,8 @@ impl LevelPlan {
 /// Maximum number of particles per level, and of nodes per level.
 pub(crate) const MOST_POINTS: f64 = 5e7;
 
-/// Minimum ratio of the cells of a fine-grid reference: at order 2, its error is then 1/16.
+/// Minimum ratio of the cells of a fine-grid reference to those of the finest level. With a method
+/// of second order, the reference has 1/16 of the error.
 pub(crate) const FINE_GRID: u64 = 4;
 
 /// The spacing that a reference run of the same method reduces.

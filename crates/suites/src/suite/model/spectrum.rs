@@ -47,7 +47,7 @@ pub struct SpectrumCase {
     pub name: String,
     /// The method.
     pub method: Method,
-    /// Closed formulas for phase speed and damping; `None` if the method is unknown.
+    /// Closed formulas for phase speed and damping; `None` for a solver whose method is unknown.
     pub curve: Option<WaveMethod>,
     /// Stability limit of the Courant number, from `curve`.
     pub limit: Option<f64>,

@@ -28,7 +28,7 @@ impl SceneFace {
     }
 }
 
-/// Returns the index in [`FACES`]. An error points to the key or to the value at `path`.
+/// Returns the index in [`FACES`] of a face. An error points to the key or the value at `path`.
 pub(crate) fn face(
     path: &SuitePath<'_>,
     name: &str,

@@ -1,4 +1,5 @@
-//! The scene of a suite: the body with its conditions and loads.
+//! The scene of a suite: the body with its conditions and loads. Each load and each condition has
+//! one file with its keys, their checks, and the conversions for the solver and the exact solution.
 
 pub(crate) mod boundary;
 pub(crate) mod face;
@@ -66,7 +67,8 @@ pub(crate) const SHORTEST: f64 = 1e-30;
 /// Maximum length of a body (m), because powers of larger lengths overflow.
 pub(crate) const LONGEST: f64 = 1e30;
 
-/// Spare grid cells outside a free face, in addition to a tenth of the body length.
+/// Spare grid cells outside a free face for bodies that expand, in addition to a tenth of the body
+/// length.
 const SPARE_CELLS: f64 = 2.0;
 
 impl Scene {
@@ -87,6 +89,7 @@ impl Scene {
         properties.wave_speed(low).max(properties.wave_speed(high))
     }
 
+    /// Returns the largest stiffness against uniaxial strain in the body at rest (Pa).
     pub(crate) fn wave_modulus(&self) -> f64 {
         self.material.properties().wave_modulus(self.density.largest())
     }
@@ -107,10 +110,12 @@ impl Scene {
         if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies }
     }
 
+    /// Returns the length of the longest side of the bounding box (m).
     pub(crate) fn size(&self) -> f64 {
         longest(&self.from, &self.to)
     }
 
+    /// Returns the distance (m) that is treated as rounding error.
     pub(crate) fn rounding(&self) -> f64 {
         rounding(&self.from, &self.to)
     }

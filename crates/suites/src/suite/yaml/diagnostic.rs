@@ -249,6 +249,7 @@ fn shortened(words: &str, most: usize) -> String {
     safe
 }
 
+/// Whether `c` is a bidirectional control character, which reorders a line in a terminal.
 fn reorders(c: char) -> bool {
     matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

@@ -222,7 +222,8 @@ impl<'a> Fault<'a> {
     }
 }
 
-/// Separates the three texts of a refusal. No file contains this control character.
+/// Separates the three texts of a refusal, because the error of a deserializer is one string.
+/// Sources with control characters are refused, so no file can forge the separator.
 const FENCE: char = '\u{1f}';
 
 /// Creates the error for a value that is refused during deserialization.

@@ -183,7 +183,8 @@ fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
 }
 
-/// Whether the file is a named pipe, which may have no writer. Pipes of the shell have one.
+/// Whether the file is a named pipe that may have no writer, so that reading would block. Pipes of
+/// the shell have a writer, and the result is false.
 fn is_named_pipe(path: &Path, metadata: &Metadata) -> bool {
     #[cfg(unix)]
     let is_pipe = std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type());

@@ -178,6 +178,8 @@ impl InvalidText<'_> {
             .with_help(&format!("the `{closing}` is on line {line}, column {column}"))
     }
 
+    /// Finds the brackets at the error. The parser reads at most a few lines ahead of its events,
+    /// so only these lines are searched.
     fn brackets(&self) -> Brackets {
         let Self { text, at, events_end, .. } = *self;
         let mut open = self.brackets.clone();

@@ -100,7 +100,8 @@ pub(crate) fn tree(name: &str, text: &str) -> Result<(Vec<Scalar>, TreeNode), Di
     Ok((builder.scalars, builder.root))
 }
 
-/// Returns the offset of the first directive other than `%YAML`, which shifts positions.
+/// Returns the offset of the first directive other than `%YAML`. Some directives make the parser's
+/// positions wrong.
 fn directive(text: &str) -> Option<usize> {
     let mut at = 0;
     for line in text.split_inclusive('\n') {

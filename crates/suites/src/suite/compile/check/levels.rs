@@ -48,7 +48,8 @@ fn vacant(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), D
     Err(path.diagnostic(&message).with_label(label))
 }
 
-/// Refuses a grid without nodes on a fixed high face, and a periodic grid of another length.
+/// Refuses a grid without nodes on a fixed high face, because the condition applies to nodes, and a
+/// periodic grid whose length is not the stated period.
 pub(crate) fn held_faces(
     path: &SuitePath<'_>,
     scene: &Scene,

@@ -116,7 +116,8 @@ fn refuse_unfit_scene(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
     }
 }
 
-/// Whether a face prevents rigid translation along an axis; a radius has none.
+/// Whether a face prevents rigid translation along an axis. A body of revolution has no rigid
+/// translation along its radius.
 fn is_held(scene: &Scene, axis: usize) -> bool {
     if scene.plane == PlaneState::Axisymmetric && axis == 0 {
         return true;

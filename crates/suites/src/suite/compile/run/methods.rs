@@ -255,7 +255,8 @@ fn named(
     Ok(drafts)
 }
 
-/// Adds differing settings to equal names, and returns whether a name has changed.
+/// Adds differing settings to equal names, and returns whether a name has changed. A new name may
+/// equal another one, so the caller repeats the call.
 fn say_differences(drafts: &mut [NamedMethod]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {

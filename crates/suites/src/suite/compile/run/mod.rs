@@ -91,7 +91,8 @@ fn distinct(
 /// Maximum offset of a particle, as a fraction of the particle spacing: halfway to the next one.
 const MOST_OFFSET: f64 = 0.5;
 
-/// Maximum random offset at a loaded face, where the outermost layer must stay separate.
+/// Maximum random offset at a loaded face, as a fraction of the particle spacing. The layer at the
+/// face stays separate from the next layer.
 const MOST_OFFSET_AT_LOADS: f64 = 0.25;
 
 const SEED: u64 = 1;

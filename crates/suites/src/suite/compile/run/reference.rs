@@ -43,7 +43,8 @@ fn fem(draft: &StudyDraft<'_>, spec: &ReferenceSpec) -> Result<Option<ReferenceP
     }))
 }
 
-/// Minimum ratio of the finest level's time step to that of the reference: 1/64 of the error.
+/// Minimum ratio of the finest level's time step to that of the reference. With a method of second
+/// order, the reference has 1/64 of the error.
 const SHORTER: f64 = 8.0;
 
 fn same_method(

@@ -93,7 +93,8 @@ fn contact(path: &SuitePath<'_>, spec: &SceneSpec) -> Result<Option<f64>, Diagno
     path.zero_or_positive(&contact.friction, "the coefficient of friction").map(Some)
 }
 
-/// Refuses a grid that does not contain the body or does not end at its fixed faces.
+/// Refuses a grid that does not contain the body or does not end at its fixed and periodic faces.
+/// The period of a body that may start deformed is checked later.
 fn on_grid(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let Some((from, to)) = &scene.grid else { return Ok(()) };
     let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
@@ -161,6 +162,8 @@ fn together(
     Ok(scene)
 }
 
+/// Frees the faces of a body inside the bounding box of all bodies, because walls exist only on the
+/// box.
 fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     for face in &mut body.faces {
         let axis = face.axis;
@@ -189,6 +192,7 @@ fn apart(path: &SuitePath<'_>, bodies: &[Scene]) -> Result<(), Diagnostic> {
     Ok(())
 }
 
+/// Whether two bodies overlap; a ring is treated as a disk.
 fn overlap(one: &Scene, other: &Scene) -> bool {
     let boxes = (0..one.from.len())
         .all(|axis| one.from[axis] < other.to[axis] && other.from[axis] < one.to[axis]);

@@ -1,4 +1,5 @@
-//! Computes the set-up of a run from parameter values. Any parameter can be swept.
+//! Computes the set-up of a run from parameter values. Any parameter can be swept, so the whole
+//! specification is evaluated again for every value.
 
 use crate::suite::compile::check::levels;
 use crate::suite::compile::run::refine::{stable_share, step_formula};

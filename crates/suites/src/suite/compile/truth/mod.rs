@@ -1,4 +1,4 @@
-//! Compiles the exact solution or equilibrium of a suite, and checks it.
+//! Compiles the exact solution or equilibrium of a suite, and checks that it solves the problem.
 
 mod conduction;
 mod interface;
@@ -318,6 +318,8 @@ fn refuse_equilibrium_with(draft: &StudyDraft<'_>, state: &ExactSpec) -> Result<
     }
 }
 
+/// Refuses prescribed velocities in an equilibrium study, because the velocity at the end of a run
+/// does not determine the final position.
 fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let scene_path = evaluator.top("scene");
     if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {

@@ -57,12 +57,14 @@ pub(crate) trait SceneLoad: Term + 'static {
         None
     }
 
-    /// Returns the tension (Pa) along the outward normal at the end `x` (m) of a bar.
+    /// Returns the tension (Pa), as a function of t, at the end `x` (m) of a bar. `outwards` is the
+    /// sign of the outward normal.
     fn tension(&self, _x: f64, _outwards: f64) -> Option<TimeFunction> {
         None
     }
 
-    /// Returns the force per reference area (Pa) for `values` of the coordinates and t.
+    /// Returns the force per reference area (Pa) for `values` of the coordinates and t; empty if
+    /// the load does not act on a face.
     fn traction(&self, _values: &[f64]) -> Vec<f64> {
         Vec::new()
     }

@@ -221,6 +221,8 @@ fn faces(
     Ok(faces)
 }
 
+/// Refuses prescribed temperatures and heat fluxes on a face that does not stay on a grid face,
+/// because the condition applies to nodes.
 fn on_grid(path: &SuitePath<'_>, lets_heat_in: bool, face: &SceneFace) -> Result<(), Diagnostic> {
     let (name, verb) = (face.name, face.hold.kind().verb);
     if face.hold.is_periodic() {

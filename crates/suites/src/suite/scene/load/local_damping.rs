@@ -32,6 +32,7 @@ impl LoadKeys for LocalDampingSpec {
         Ok(Arc::new(LocalDampingLoad(share)))
     }
 
+    /// Refuses a manufactured force, because local damping would also oppose this force.
     fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
         if !study.manufactured {
             return Ok(());
