@@ -1,6 +1,8 @@
 //! Checks that `docs/columns.md` lists all declared columns and no others.
 
-use super::{TableColumn, cost, force, level, scientific, spectrum, stability, timed_level};
+use super::{
+    TableColumn, cost, force, level, number, scientific, spectrum, stability, timed_level,
+};
 use crate::verify::{Axis, Quantity, Ranking, StabilityStudy};
 use rstest::rstest;
 
@@ -71,4 +73,13 @@ fn the_document_lists_the_columns() {
 #[case(f64::INFINITY, "inf")]
 fn numbers(#[case] value: f64, #[case] text: &str) {
     assert_eq!(scientific(value), text);
+}
+
+#[rstest]
+#[case(f64::NAN, "\"nan\"")]
+#[case(f64::INFINITY, "\"inf\"")]
+#[case(f64::NEG_INFINITY, "\"-inf\"")]
+#[case(0.1, "0.1")]
+fn non_finite_numbers_are_strings_in_json(#[case] value: f64, #[case] text: &str) {
+    assert_eq!(number(value).to_string(), text);
 }

@@ -141,6 +141,20 @@ fn the_page_names_the_run() {
     assert!(commit().is_none_or(|commit| page.contains(&format!(", commit {commit}. "))));
 }
 
+#[test]
+fn failures_and_refused_files_are_marked_above_the_suites() {
+    let sound = of(&[outcome("a", "x", &[])], "");
+    assert!(sound.contains("<p class=\"ok finding\">1 suite, 2 cases: 2 pass, 0 FAIL.</p>"));
+    let failed = of(&[outcome("a", "x", &["too low"])], "");
+    let place = failed.find("<p class=\"bad finding\">1 suite, 2 cases: 2 FAIL.</p>");
+    assert!(place.expect("a summary") < failed.find("<nav").expect("the list of suites"));
+    assert!(failed.contains("a::firstx</a>: too lowx</li>"));
+    let none = page(&[], &RunFacts { refused: 2, ..RunFacts::default() });
+    let summary = "<p class=\"bad finding\">0 suites, 0 cases. 2 files could not be used.</p>";
+    assert!(none.contains(summary));
+    tags(&none);
+}
+
 /// The page loads nothing from a network, and its content security policy forbids it.
 #[test]
 fn the_page_loads_no_resources() {
