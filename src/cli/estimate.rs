@@ -178,7 +178,7 @@ fn as_text(series: &[SeriesPoint], result: &Result<LimitEstimate, EstimateRefusa
     rows.collect::<Vec<_>>().join("\n") + "\n"
 }
 
-/// Rounds to two digits of the half-width: `1.2346 +- 1.2e-3, 95 %: [1.2334, 1.2358]`.
+/// Formats a limit to two digits of its half-width: `1.2346 +- 1.2e-3, 95 %: [1.2334, 1.2358]`.
 fn limit_shown(limit: &Interval) -> String {
     let half_width = limit.half_width();
     let size = limit.value.abs().max(half_width);

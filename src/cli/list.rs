@@ -93,7 +93,8 @@ pub(super) struct StepsArgs {
     format: FormatArgs,
 }
 
-/// Prints the time steps of each suite. Fails if a step is off by more than [`STEP_TOLERANCE`].
+/// Prints the time steps of each suite. The status is `Failed` if a step differs from the requested
+/// step by more than [`STEP_TOLERANCE`].
 pub(super) fn steps(args: &StepsArgs) -> Status {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
     let (all, off) = (Cell::new(0), Cell::new(0));

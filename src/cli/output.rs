@@ -1,4 +1,5 @@
-//! Standard output and standard error with coloured verdicts; records the first failed write.
+//! Standard output and standard error. All commands print through this module, which records the
+//! first failed write. Only terminals get colours.
 
 use anstyle::{AnsiColor, Style};
 use mpm_verify::suite::yaml::Diagnostic;

@@ -14,7 +14,7 @@ const FOLDER: &str = "verification";
 
 const STDIN: &str = "-";
 
-/// Loads the suites that `targets` name, or returns their diagnostics.
+/// Loads the suites that `targets` name, or returns a diagnostic for each invalid one.
 ///
 /// Without targets, loads all suites in `verification/`, or else the built-in suites.
 pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {

@@ -31,7 +31,8 @@ pub(crate) fn together(names: &[&str]) -> String {
     })
 }
 
-/// Combines all combinations of some words: `mpm-{linear,ugimp}-{flip,apic}`; `None` otherwise.
+/// Merges names that are all combinations of some words, such as `mpm-{linear,ugimp}-{flip,apic}`;
+/// `None` for other names.
 fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     let at = |k: usize| {
         names.iter().map(|name| name.get(k)).collect::<Option<Vec<&String>>>().map(distinct)

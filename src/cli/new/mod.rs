@@ -71,6 +71,7 @@ fn load(name: &str, path: &Path, text: &str) -> Result<Suite, Diagnostic> {
     })
 }
 
+/// Writes a new file. An existing file is not overwritten.
 fn save(path: &Path, text: &str) -> Result<(), CommandError> {
     let saved = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
     saved.map_err(|error| match error.kind() {

@@ -69,6 +69,7 @@ pub(super) fn write_junit(
     fs::write(file, text).map_err(|error| unwritable("--junit", file, &error))
 }
 
+/// Writes the HTML page. `outcomes` has the order of `sources`, without refused and skipped suites.
 pub(super) fn write_page(
     file: &Path,
     sources: &[Source],

@@ -296,7 +296,8 @@ fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     pool.build_global().map_err(|error| CommandError::option("--jobs", jobs, error))
 }
 
-/// Returns the number of runs of each level. Fails without a spread, or with stored results.
+/// Returns the number of runs of each level. Refuses a `--repeat` that would measure no spread, or
+/// would mix stored results with new ones.
 fn repetitions(args: &RunArgs) -> Result<usize, CommandError> {
     const MOST: usize = 100;
     let Some(repeat) = args.repeat else { return Ok(1) };

@@ -178,7 +178,8 @@ fn failures(outcomes: &[SuiteOutcome]) -> String {
     text
 }
 
-/// Checks that each label matches a case, and that no two cases or suites have the same text.
+/// Checks that each label matches a case, that no two cases have the same label, and that no two
+/// suites have the same title.
 pub(super) fn check(args: &ReportArgs, runs: &[SuiteRuns]) -> Result<(), CommandError> {
     if let Some(title) = args.title.as_ref().filter(|_| runs.len() > 1) {
         return Err(CommandError::option("--title", title, "expected one suite"));

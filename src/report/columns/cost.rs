@@ -82,7 +82,7 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     columns
 }
 
-/// Reach of a target error, and its work divided by the minimum work of all methods.
+/// Work and spacing at a target error, and the work over the minimum work of all methods.
 type Reached = (Reach, Option<f64>);
 
 fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {

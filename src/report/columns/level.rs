@@ -33,7 +33,7 @@ fn ppc<'a>() -> LevelColumn<'a> {
     LevelColumn::plain("ppc", "ppc", "particles per cell (MPM)", |row| row.level.ppc)
 }
 
-/// Returns the column of what is refined: cells, time step or particles per cell.
+/// Returns the column of the refined axis: cells, time step or particles per cell.
 pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     match axis {
         Axis::Space => cells(),
@@ -77,7 +77,8 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// Returns the largest final error of `of`, a dash if it equals the judged error, and its order.
+/// Returns two columns: the largest error of the quantity `of` at the end (a dash if it is the
+/// judged error), and the order of this error.
 pub(crate) fn largest_error<'a>(of: Quantity) -> [LevelColumn<'a>; 2] {
     let heading = format!("linf of {} at end ({})", of.words(), of.unit());
     let about = "order of the largest error between the two finest levels";
@@ -235,7 +236,8 @@ impl LevelRow<'_> {
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())
     }
 
-    /// Returns the largest error at the end of the judged primary unknown or of the displacement.
+    /// Returns the largest error at the end: that of the judged quantity if it is a primary
+    /// unknown, otherwise that of the displacement.
     fn linf(&self) -> f64 {
         let run = &self.level.run;
         let errors =

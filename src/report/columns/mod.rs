@@ -1,6 +1,6 @@
 //! Columns of tables. Each column is declared once, with its heading, JSON key, meaning and value.
 //!
-//! Text, JSON and `docs/columns.md` use the same lists.
+//! Text, JSON and `docs/columns.md` use the same lists. A new column needs one entry in a list.
 
 use crate::verify::Interval;
 use serde_json::{Map, Value, json};

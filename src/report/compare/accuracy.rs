@@ -8,7 +8,8 @@ use crate::verify::Quantity;
 /// Maximum relative difference between spacings that count as equal.
 const SAME_SPACING: f64 = 1e-6;
 
-/// Error that counts as rounding for a case without an order, over the size of the quantity.
+/// Maximum error that counts as rounding for a case without an order, relative to the size of the
+/// judged quantity. Changes of such errors are not compared.
 const ROUNDING: f64 = 1e-11;
 
 /// Verdict of `run --gate` on errors that are due to rounding.
@@ -38,7 +39,7 @@ fn same(a: &LevelDocument, b: &LevelDocument) -> bool {
 pub(super) fn is_rounding(old: &CaseDocument, new: &CaseDocument) -> bool {
     let tiny = |case: &CaseDocument| {
         let small = |level: &LevelDocument| relative(case.judge.as_ref(), level) < ROUNDING;
-        // Rounding errors may have an order by chance, and `run --gate` then this verdict.
+        // Rounding errors may have an order by chance. `run --gate` then reports `AT_ROUNDING`.
         let has_no_order = case.observed_order.is_none() || case.verdict == AT_ROUNDING;
         has_no_order && case.levels.iter().all(small)
     };
@@ -59,7 +60,8 @@ fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     }
 }
 
-/// Returns the error change: of a level that newly or no longer fails, the finest, or the largest.
+/// Returns the error change to report: of a level that newly fails or no longer fails, or else of
+/// the finest level, or else the largest change. `None` without a change.
 pub(super) fn error(
     pairs: &[LevelPair<'_>],
     axis: Option<&str>,
@@ -92,7 +94,8 @@ fn error_of((old, new): LevelPair<'_>, axis: Option<&str>, tolerance: f64) -> Op
     }
 }
 
-/// Returns the ratio of new to old transfers on the finest level, or else the largest change.
+/// Returns the ratio of new to old transfers on the finest level, or on the level with the largest
+/// change if the finest level has none.
 pub(super) fn work(pairs: &[LevelPair<'_>], tolerance: f64) -> Option<f64> {
     let ratio = |(old, new): &LevelPair<'_>| match (old.transfers, new.transfers) {
         (a, b) if a == b => 1.0,

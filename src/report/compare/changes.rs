@@ -108,7 +108,8 @@ pub(super) struct CheapestMove {
 }
 
 impl CheapestMove {
-    /// Returns the ratio of new to old work: infinite for a lost target, and zero for a new one.
+    /// Returns the ratio of new to old work: infinite if the target is no longer reached, and zero
+    /// if only the new run reaches it.
     pub(super) fn ratio(&self) -> f64 {
         match (&self.old, &self.new) {
             (Some((old, _)), Some((new, _))) => new / old,

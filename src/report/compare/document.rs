@@ -1,6 +1,7 @@
 //! Parsed form of a document written by [`json()`](crate::report::json()).
 //!
-//! Unknown keys are ignored. Keys that were added after the first version may be missing.
+//! Unknown keys are ignored, because later versions have more keys. Keys that were added after the
+//! first version may be missing.
 
 use serde::{Deserialize, Deserializer, de};
 use std::collections::BTreeSet;

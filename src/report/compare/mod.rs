@@ -22,5 +22,6 @@ pub use document::{ReportDocument, Unreadable};
 pub use output::text;
 pub use pairs::compare;
 
-/// Default tolerance: changes that count as none, as in the [drift gate](super::text::drift).
+/// Default tolerance: maximum relative change of a value that counts as unchanged, as in the [drift
+/// gate](super::text::drift).
 pub const TOLERANCE: f64 = super::text::drift::RELATIVE;

@@ -167,7 +167,8 @@ fn severity(verdict: &str) -> u8 {
     }
 }
 
-/// Whether the order is lower than before. Smaller errors are then no improvement.
+/// Whether the observed order is lower than before. Smaller errors on the compared levels are then
+/// no improvement, because finer grids lose it.
 fn order_falls(found: &Moved) -> bool {
     const CHANGE: f64 = 0.05;
     matches!(found.order, [Some(old), Some(new)] if old - new > CHANGE)
@@ -251,7 +252,7 @@ fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
 /// Returns the target errors whose minimum work has changed, sorted by decreasing ratio. Targets
 /// that are no longer reached come first. Suites with a changed problem are excluded.
 ///
-/// Documents without the key `cost`, the work of each method for each target, have none.
+/// Documents without the key `cost` (work of each method for each target) are not compared.
 fn cheapest_moves(
     old: &ReportDocument,
     new: &ReportDocument,

@@ -8,7 +8,8 @@ use crate::report::text::prose::KEYS;
 pub(super) const FINEST: &str = "finest";
 
 impl ReportDocument {
-    /// Reads the suites from the overview, and their results from the `report` of a group and name.
+    /// Reads the names of the suites from the overview, and their results from their reports.
+    /// `report` returns the report of a suite, given its group and name, if there is one.
     pub fn of_snapshots(overview: &str, report: impl Fn(&str, &str) -> Option<String>) -> Self {
         let (mut suites, mut group) = (Vec::new(), "");
         let rows = overview.lines().skip_while(|line| !line.starts_with("  suite ")).skip(1);

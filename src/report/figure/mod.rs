@@ -2,7 +2,8 @@
 //!
 //! There are two kinds: the [`LogLogPlot`] (error against cell size, time step or work) and the
 //! [`Map`] (a table of numbers on coloured fields). Both are pure functions of their input and can
-//! be compared byte by byte: coordinates have two decimals, and functions come from `libm`.
+//! be compared byte by byte: coordinates have two decimals, and transcendental functions come from
+//! `libm`.
 //!
 //! A value that cannot be placed on its axis is drawn as failed or is counted in a note below.
 //!

@@ -65,7 +65,7 @@ fn attributes(attributes: &[(&str, &str)]) -> String {
     attributes.iter().map(attribute).collect()
 }
 
-/// Escapes special characters, and replaces those that HTML does not allow.
+/// Escapes special characters. Forbidden and bidirectional control characters become U+FFFD.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

@@ -71,7 +71,8 @@ fn share(kept: usize, all: usize) -> Html {
     Html::tag("td", &[], text)
 }
 
-/// Colours only text: a background would hide the shadow that indicates further columns.
+/// Creates a cell with the colour of a result. Only the text is coloured, because a background
+/// would hide the shadow that indicates further columns.
 fn coloured(result: Option<CaseResult>, text: String) -> Html {
     let class = result.map_or("", CaseResult::name);
     Html::tag("td", &[], Html::tag("span", &[("class", &plain(class))], text))

@@ -34,7 +34,8 @@ pub fn glance(outcomes: &[SuiteOutcome]) -> String {
     table.flush_left(&["orders", "results"]).lines().join("\n") + "\n"
 }
 
-/// Returns an overview of suites in groups. A change of a suite changes only its own lines.
+/// Returns an overview of suites: a summary, and the findings of each suite by basis, in groups. A
+/// change of a suite changes only its own lines.
 pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     let mut lines = vec!["Overview of all suites".to_owned(), String::new()];
     let cases: Vec<&CaseOutcome> = outcomes.iter().flat_map(|suite| &suite.cases).collect();

@@ -1,6 +1,7 @@
 //! Reports as text: aligned tables that are readable in a diff.
 //!
-//! Errors have four significant digits, orders two decimals. Counters are exact.
+//! Errors have four significant digits, orders two decimals. Counters are exact. Reports do not
+//! depend on the machine.
 
 use super::verdicts;
 use crate::report::columns::TableColumn;
@@ -79,7 +80,8 @@ fn first_sentence(text: &str) -> &str {
     text.match_indices(". ").find(ends).map_or(text, |(at, _)| &text[..=at])
 }
 
-/// Returns a line for each case, followed by its expectation or why it was not tested.
+/// Returns a table with one line for each case, as printed by `run`, followed by the expectation or
+/// the reason why the case was not tested.
 pub fn summary(outcomes: &[SuiteOutcome]) -> String {
     let rows = outcomes.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)));
     let cases: Vec<SuiteCase<'_>> = rows.collect();

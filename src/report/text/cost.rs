@@ -42,7 +42,8 @@ fn relative(ranking: &Ranking) -> String {
     format!("divided by {size}, the largest exact value of the judged quantity")
 }
 
-/// Returns the report of a timed suite, if `is_verbose` with all levels and the work in transfers.
+/// Returns the report of a timed suite: the ranking by seconds, and the cheapest method.
+/// `is_verbose` adds all levels, and the ranking by transfers.
 pub fn timed(timed: &TimedSuite, is_verbose: bool) -> String {
     let mut text = format!("{}: {}\n\n", timed.outcome.suite, timed.outcome.title);
     text += &machine(&timed.machine);

@@ -1,12 +1,14 @@
 //! Detects drift of a report: compares two texts number by number.
 //!
 //! Text and counters must be equal. Decimal numbers may differ by [`RELATIVE`] or by one unit in
-//! the last printed digit. A number that is not finite equals nothing, not even itself.
+//! the last printed digit, because the last bits differ between platforms. A number that is not
+//! finite equals nothing, not even itself.
 
 /// Maximum relative difference between decimal numbers that count as equal.
 pub const RELATIVE: f64 = 1e-3;
 
-/// Whether the texts are equal within the tolerances. Several spaces count as one.
+/// Whether the texts are equal within the tolerances. Several spaces count as one, because a column
+/// may become wider.
 pub fn same(old: &str, new: &str) -> bool {
     let (old, new) = (old.trim_end(), new.trim_end());
     old.lines().count() == new.lines().count()

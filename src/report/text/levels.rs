@@ -9,7 +9,7 @@ use crate::verify::{
     format_number, grouped,
 };
 
-/// Adds tables of errors and orders, of the finest levels, and of drifts, rates and limits.
+/// Adds tables of errors and orders, values on the finest levels, drifts, rates and limits.
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     settings(lines, studies);
     first_crossings(lines, studies);

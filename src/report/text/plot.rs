@@ -14,7 +14,8 @@ const DOTS: [usize; 2] = [2, 4];
 /// Mark of a level that does not count for the order.
 const EXCLUDED: char = 'o';
 
-/// Draws the errors of a suite, a letter for coinciding curves; `None` without several levels.
+/// Draws the errors of a suite. Cases whose points coincide share a letter. `None` if the suite has
+/// no errors on several levels.
 pub fn convergence_plot(outcome: &SuiteOutcome) -> Option<String> {
     let is_compared = |(_, study): &(&str, &Convergence)| study.compared;
     let mut studies = outcome.results(CaseOutcome::convergence).filter(is_compared).peekable();

@@ -167,7 +167,7 @@ fn least_width(cell: &str) -> usize {
     }
 }
 
-/// Replaces control characters, which could change the terminal.
+/// Replaces control characters. Names may come from a file, and could change the terminal.
 pub(crate) fn printable(text: &str) -> String {
     let safe = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     text.chars().map(safe).collect()

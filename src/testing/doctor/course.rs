@@ -37,7 +37,8 @@ impl Course {
         self.states.push(samples);
     }
 
-    /// Sets the fields of the first state, which a solver with its own points does not report.
+    /// Sets displacements and velocities of the first state to the initial fields, which a solver
+    /// with its own points does not report.
     pub(super) fn start(&mut self, displacement: &AffineField, velocity: &AffineField) {
         let d = self.problem.dimension;
         let Some(samples) = self.states.first_mut() else { return };

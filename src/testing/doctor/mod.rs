@@ -35,7 +35,7 @@ use patient::{Examination, Examined, Hindrance, Patient};
 use rayon::prelude::*;
 
 /// Runs all examinations of a solver, starting with the simplest, and calls `progress` with the
-/// name of each. Defects in an examination skip those that depend on it.
+/// name of each. An examination is skipped if one on which it depends reports defects.
 pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorReport {
     let mut report = DoctorReport {
         solver: solver.name().to_owned(),
@@ -144,7 +144,8 @@ fn ground(examination: &Examination, report: &DoctorReport) -> Option<&'static s
 const SUITES: usize = 3;
 
 /// Lists the capabilities that `solver` declares and that no examination covers. Skipped
-/// examinations cover theirs, because they run once the defects are corrected.
+/// examinations count, because they run once the defects are corrected; those that are not
+/// applicable do not.
 fn unexamined(
     solver: &dyn SolverFactory,
     reports: &[ExaminationReport],

@@ -17,7 +17,8 @@ pub(super) struct Examined {
 pub(super) enum Hindrance {
     /// The solver lacks these capabilities, or refuses the problem for this reason.
     Lacks(String),
-    /// Masked, also for the examinations that depend on this one; completes "the solver lacks ...".
+    /// An effect of the method masks the examined quantity, also from the examinations that depend
+    /// on this one. The text completes "the solver lacks ...".
     Masked(String),
     /// The solver did not complete a run, and gave this message.
     Broke(String),
@@ -80,7 +81,7 @@ impl Patient<'_> {
         }
     }
 
-    /// Returns the first supported scene, with any of the `laws` before the next dimension.
+    /// Returns the first supported scene, trying all `laws` for each of the `dimensions` in turn.
     pub(super) fn able(
         &self,
         dimensions: &[usize],

@@ -56,7 +56,8 @@ pub(super) const SWELLING_SLOPE: f64 = 0.001;
 /// Slope lambda of the compression line of Cam-clay.
 pub(super) const COMPRESSION_SLOPE: f64 = 0.005;
 
-/// Preconsolidation over initial pressure of Cam-clay; below 2, the clay hardens in shear.
+/// Preconsolidation pressure of Cam-clay over its initial pressure. Below 2, the clay hardens in
+/// shear at constant volume.
 pub(super) const OVERCONSOLIDATION: f64 = 1.5;
 
 /// A box of particles on a grid. Vectors have one number per dimension.
@@ -123,7 +124,8 @@ pub(super) struct Extras {
 }
 
 impl BoxScene {
-    /// Creates a body at rest of `cells` cells per axis at `from`, with `margin` cells around it.
+    /// Creates a body at rest with `cells` cells along each axis and the lowest corner `from`,
+    /// surrounded by `margin` empty cells.
     pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, margin: f64) -> Self {
         let (dimension, law) = kind;
         let low = from[..dimension].to_vec();
@@ -144,7 +146,8 @@ impl BoxScene {
             strength: 1e-4,
             friction: 1.0,
             dilation: 1.0 / 3.0,
-            // No power, product or ratio of the other numbers, so mistakes give different factors.
+            // The density is no power, product or ratio of the other numbers, so that each possible
+            // mistake changes accelerations by another factor (see `moduli::factors`).
             density: 1.7,
             velocity: AffineField::default(),
             displacement: AffineField::default(),

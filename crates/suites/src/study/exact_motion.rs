@@ -35,6 +35,7 @@ pub(crate) fn raster(problem: &Problem, intervals: usize) -> Vec<Vec<f64>> {
     points.filter(|place| problem.holds(place)).collect()
 }
 
+/// Returns the points of a regular lattice between two corners (m).
 pub(crate) fn lattice(
     from: &[f64],
     to: &[f64],
@@ -118,6 +119,7 @@ impl Extremes {
         ends.filter(|x| x.is_finite()).fold(0.0, f64::max)
     }
 
+    /// Returns the largest displacement (m) along an axis.
     pub(crate) fn largest_displacement(&self) -> f64 {
         self.displacement.iter().fold(0.0, |a, b| a.max(*b))
     }

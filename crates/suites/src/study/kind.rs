@@ -51,8 +51,7 @@ pub(crate) trait CaseRunner: Send + Sync {
         Vec::new()
     }
 
-    /// Passes the first run that failed or whose energy grew, or else the last run, to the
-    /// callback.
+    /// Passes the first run that failed or gained energy, or else the last run, to the callback.
     fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), SeriesError> {
         Err("its study has no runs to show".into())
     }

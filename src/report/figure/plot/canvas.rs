@@ -53,7 +53,8 @@ impl Heading {
     }
 }
 
-/// Estimates the width of `text` (px) at the font size `size`, which depends on the viewer.
+/// Estimates the width of `text` (px) at the font size `size`. The actual width of SVG text depends
+/// on the viewer.
 ///
 /// A text that fits in `DejaVu Sans`, the widest face, also fits in Helvetica.
 pub(crate) fn text_width(text: &str, size: f64) -> f64 {

@@ -97,7 +97,8 @@ const SHAPES: [MarkerShape; 8] = [
 const DASHES: [&str; 8] =
     ["6 2.5", "1.5 2", "9 2.5 1.5 2.5", "3 2", "12 3", "6 2 1.5 2 1.5 2", "4 4", "1.5 4"];
 
-/// Returns the style of a series; the coprime periods repeat only after 56 series.
+/// Returns the style of the series at `index`. Colours and shapes have coprime periods, so their
+/// combinations repeat only after 56 series.
 pub(crate) fn look(index: usize) -> Look {
     Look {
         colour: SERIES[index % SERIES.len()].0,

@@ -115,7 +115,7 @@ impl SvgElement {
     }
 }
 
-/// Formats a coordinate with two decimals, zero without sign.
+/// Formats a coordinate with two decimals. Zero has no sign: equal figures have equal bytes.
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }

@@ -1,7 +1,8 @@
 //! Examination of modified Cam-clay along three strain paths: swelling, compression, and shear.
 //!
-//! Paths of the heavy body end at states whose mean stress p and deviatoric stress q follow from
-//! closed forms (Roscoe & Burland 1968), with the ratio of moduli `r = G/K`:
+//! The body is so heavy that its motion is prescribed. Paths end at states whose mean stress p and
+//! deviatoric stress q follow from closed forms (Roscoe & Burland 1968), with the ratio of moduli
+//! `r = G/K`:
 //!
 //! - swelling: `p = p0 exp(eps_v/kappa)` and `q = 2 r |p - p0|`, because G is proportional to p;
 //! - every yielding state: `p + q^2/(M^2 p) = pc`, where `pc` has grown by the factor

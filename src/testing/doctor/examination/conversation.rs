@@ -1,4 +1,5 @@
-//! Examination of the protocol: equal requests give equal answers, in any number of messages.
+//! Examination of the protocol: equal requests must give equal answers, and the number of steps per
+//! message must not matter.
 
 use super::force::ramp;
 use crate::external::ProblemNeeds;

@@ -146,7 +146,8 @@ impl FallTimes {
         self.has_lag(0.0) || self.has_lag(0.5)
     }
 
-    /// Whether the times are those of shorter steps, with velocities at most half of one early.
+    /// Whether positions and velocities are those of shorter steps, with velocities at most half a
+    /// shorter step early.
     fn is_of_shorter_steps(&self) -> bool {
         let [[lag, most_lag], [share, most_share]] = [self.lag, self.share];
         let is_lag = lag >= -NEAR && most_lag <= 0.5 * most_share.sqrt() + NEAR;
@@ -161,7 +162,8 @@ impl FallTimes {
     }
 }
 
-/// Condition, weight and name of the finding, cause, and code to check. The first one decides.
+/// Condition, weight and name of the finding, cause, and code to check. The first rule whose
+/// condition holds gives the finding.
 type FallRule = (fn(&FallTimes) -> bool, FindingWeight, &'static str, &'static str, &'static str);
 
 const RULES: [FallRule; 8] = [

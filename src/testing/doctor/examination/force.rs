@@ -180,7 +180,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let gained = |k: usize| course.mean(velocity, k)[0] - VELOCITY[0];
     let wanted = integral(end);
     let instants = &course.times[1..];
-    // With velocities l and forces s steps late, the error is `-l dt F + (s - l) dt R t`.
+    // With velocities that lag by l steps and forces of a time s steps later, the error of the
+    // speed is `-l dt F + (s - l) dt R t`.
     let errors: Vec<f64> = (1..=last).map(|k| gained(k) - integral(course.times[k])).collect();
     let (start, slope, off) = line(instants, &errors);
     let (lag, late) = (-start / (FORCE * dt), slope / (RATE * dt));

@@ -31,12 +31,13 @@ const FOLLOWS: f64 = 0.1;
 /// Initial displacement gradient of a body that starts deformed.
 const START: [[f64; 3]; 3] = [[0.1, -0.3, 0.0], [0.2, 0.0, -0.1], [0.0, 0.1, 0.1]];
 
-/// Maximum error of a component, relative to the largest one; allows for laws in rate form.
+/// Maximum error of a component over the largest one. Laws in rate form have time step errors.
 const NEAR: f64 = 0.04;
 
 const STEPS: u64 = 25;
 
-/// State with small strains. Errors here and at half its time show whether they grow with them.
+/// State with small strains. The errors in this state and at half its time show whether an error
+/// grows with the strain.
 const EARLY: usize = 4;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -111,6 +112,7 @@ struct StressError {
     factor: f64,
     /// Largest error of a component, relative to the largest component of the law.
     error: f64,
+    /// Error of the stress divided by `factor`.
     remainder: f64,
 }
 

@@ -22,7 +22,8 @@ const CELLS: f64 = 8.0;
 
 const STRAIN: f64 = 0.004;
 
-/// Maximum error over the largest displacement. Linear functions have an error of `(h/L)^2/4`.
+/// Maximum error, relative to the largest displacement. The error of linear functions is at most
+/// `(h/L)^2/4` of the displacement.
 const NEAR: f64 = 0.03 + STRAIN;
 
 const RULES: Rules<7> = Rules {
@@ -87,7 +88,8 @@ fn column(kind: Kind, steps: u64) -> BoxScene {
     BoxScene { gravity: Some(gravity), steps, dt: 1.0, ..scene }
 }
 
-/// Returns all displacements over the exact one under the whole weight, and the largest deviation.
+/// Returns the displacements after one load step and after each of five, relative to the exact one
+/// under the whole weight, and the largest deviation from its profile.
 fn row(scenes: &[BoxScene], courses: &[Course]) -> Row<7> {
     let (mut values, mut deviation) = ([None; 7], 0.0);
     let states = courses
@@ -103,7 +105,8 @@ fn row(scenes: &[BoxScene], courses: &[Course]) -> Row<7> {
     ("relative to the exact displacement under the whole weight".to_owned(), values)
 }
 
-/// Returns the factor of the exact displacement that fits state `k` best, and its largest error.
+/// Returns the factor of the exact displacement that fits state `k` best, and the largest
+/// difference from this multiple, relative to the largest exact displacement.
 fn share(course: &Course, scene: &BoxScene, k: usize) -> (f64, f64) {
     let length = CELLS * scene.h;
     let exact = |label: Vector3<f64>| {

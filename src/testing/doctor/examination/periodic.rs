@@ -64,7 +64,8 @@ fn examine_ends(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// Returns the share of momentum that the upper half loses across the colliding ends of an axis.
+/// Returns the share of momentum that the upper half of a body loses across the ends of a periodic
+/// axis. The initial velocity increases along the axis, so the ends collide.
 fn lost_at_ends(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<f64, Hindrance> {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
     scene.body.1[axis] = scene.body.0[axis] + LONG * H;

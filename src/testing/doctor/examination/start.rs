@@ -283,7 +283,8 @@ fn force_of_deformed_body(force: &str, forces: &Forces) -> SolverFinding {
 
 fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFinding> {
     let (d, law) = (scene.dimension, scene.law);
-    // The motion in the first step is much smaller than the initial displacement.
+    // The motion in the first step is much smaller than the initial displacement, so a wrong start
+    // is detected after this step.
     let reach = course.farthest(displacement, 0, [0.0; 3]);
     let off = course.first_motion() / reach;
     if !(off <= 0.2) {

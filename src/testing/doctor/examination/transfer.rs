@@ -1,8 +1,9 @@
 //! Examination of the velocity transfer, with a stress-free body that rotates or stretches.
 //!
-//! The velocity is `v = L (X - C)`, a rotation or a stretch about the centre C. (All weights that
-//! sum to one transfer a uniform velocity.) The moment `M = sum m (X - C) x v` (rotation) or `M =
-//! sum m (X - C) . v` (stretch) shows how much of this velocity is transferred.
+//! The velocity is `v = L (X - C)`, a rotation or a stretch about the centre C. (A uniform velocity
+//! would reveal nothing, because all weights that sum to one transfer it exactly.) The moment
+//! `M = sum m (X - C) x v` (rotation) or `M = sum m (X - C) . v` (stretch) shows how much of this
+//! velocity is transferred.
 //!
 //! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. In this formula, d is
 //! the number of axes along which v varies, beta is the share of PIC in a blend with FLIP, and D is
@@ -71,7 +72,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
-    // If velocities are in another order than points, only the first step loses all.
+    // If velocities and points are in different orders, the first step loses the whole moment, and
+    // later steps lose nothing.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
         let seen = "after one step, the velocities of a stretching body belong to other points";
         let finding = SolverFinding::defect(
@@ -96,7 +98,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding))
 }
 
-/// Reveals ignored initial velocities, confused vectors of points, and velocities that grow.
+/// Examines a stretching body, to find solvers that ignore the initial velocity, confuse vectors of
+/// different points, or increase the velocity.
 fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| scene(kind, &STRETCH))?;
     let course = patient.run(&scene)?;
@@ -175,7 +178,8 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     Losses { first: share(0, 1), later: share(2, last) / (last - 2) as f64, unit }
 }
 
-/// Compares losses with those of averaging; `small` belongs to a body of an eighth of the size.
+/// Returns the cause of losses from a comparison with those of averaging. `small` are the losses in
+/// a stretch of a body of an eighth of the size.
 fn cause(
     patient: &Patient<'_>,
     [stretch, rotation, small]: [Losses; 3],

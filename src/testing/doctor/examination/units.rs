@@ -16,7 +16,8 @@ pub(super) const EXAMINATION: Examination = Examination {
 /// Factor for other units. It is a power of two, so scaling does not even change rounding errors.
 const THOUSANDTH: f64 = 1.0 / 1024.0;
 
-/// Maximum ratio of changes of displacements to rounding errors of positions that cause them.
+/// Maximum ratio of the change of displacements to the rounding errors of positions, if rounding is
+/// the cause.
 const GROWTH: f64 = 100.0;
 const TINY: f64 = THOUSANDTH * THOUSANDTH * THOUSANDTH * THOUSANDTH;
 

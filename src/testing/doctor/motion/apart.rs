@@ -88,7 +88,8 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
 }
 
-/// Returns the finding for weights that do not sum to one; `soft` has errors without stiffness.
+/// Returns the finding for weights that do not sum to one. `soft` contains the relative errors of
+/// displacement and velocity without stiffness.
 fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) -> SolverFinding {
     let (way, speed) = motion.off();
     let [low, high, way, speed] = [low, high, way, speed].map(shown);

@@ -270,6 +270,7 @@ fn field_named(
     Err(FieldError::Request(format!("unknown field; {}", hint(name, &names))))
 }
 
+/// Returns the time (s) of a request; 0 by default for fields of the initial state.
 fn time(field: FieldName, t: Option<f64>) -> Result<f64, FieldError> {
     match t {
         None if field.is_initial() => Ok(0.0),

@@ -252,6 +252,7 @@ impl LoadMonitor {
         Self { waited: waited(), start: Instant::now() }
     }
 
+    /// Ends the measurement and returns the time (s).
     fn stop(self) -> f64 {
         let passed = self.start.elapsed().as_secs_f64();
         let idle = self.waited.zip(waited()).map_or(0.0, |(before, after)| after - before);

@@ -38,6 +38,7 @@ pub(super) struct Session<'a> {
 }
 
 impl<'a> Session<'a> {
+    /// Creates a session with the time budget `budget` (s) for changed runs.
     pub(super) fn new(
         suite: &'a str,
         source: &'a Source,
@@ -61,8 +62,7 @@ impl<'a> Session<'a> {
         Ok(found)
     }
 
-    /// Runs a changed plan; `None` if it exceeds the budget or cannot be set up, which is no
-    /// evidence.
+    /// Runs a changed plan; `None` without evidence, if it exceeds the budget or cannot be set up.
     pub(super) fn changed(&self, change: &str, plan: &ConvergencePlan) -> Option<Convergence> {
         let cost = self.slowness.get() * estimate_of(plan).seconds;
         if !(cost <= self.left.get()) {

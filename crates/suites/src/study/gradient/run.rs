@@ -228,8 +228,7 @@ impl GradientRun<'_> {
         }
     }
 
-    /// Returns the stored numbers that `what` describes. Otherwise stores and returns those of
-    /// `run`.
+    /// Returns the stored numbers that `what` describes, or else stores and returns those of `run`.
     fn kept(
         &self,
         problem: &LevelProblem,
@@ -240,8 +239,7 @@ impl GradientRun<'_> {
         if self.context.cache.is_none() {
             return run().numbers();
         }
-        // The key includes all that a parameter changes: numbers in the message, masses,
-        // velocities.
+        // The key includes all that a parameter changes, also masses and velocities.
         let numbers = serde_json::to_string(problem)
             .map_err(|error| GradientError::Failed(error.to_string()))?;
         let particles = [&problem.particles.mass, &problem.particles.velocity];

@@ -164,8 +164,7 @@ fn two_digits(factor: f64) -> f64 {
     text.parse().unwrap_or(factor)
 }
 
-/// Maximum ratio of the tolerance to the residual. A larger tolerance could accept a wrong
-/// solution.
+/// Maximum ratio of tolerance to residual. A larger tolerance could accept a wrong solution.
 const MOST: f64 = 100.0;
 
 /// Reports, as a note, a tolerance that exceeds the residual by orders of magnitude.

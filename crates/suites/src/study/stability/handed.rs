@@ -75,6 +75,7 @@ pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>
     each.iter().map(|own| Body::stated(&setup.scene, own, setup.lattice.clone())).collect()
 }
 
+/// Adds a random number to each component of the state, if requested: every mode is excited.
 pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     if !(setup.perturb > 0.0) {
         return;

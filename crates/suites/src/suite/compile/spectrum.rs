@@ -92,6 +92,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     evaluator.refuse_first(&refused, |path, property| needs(&path, property))
 }
 
+/// Compiles the translation of the particles (m), which must keep every particle in its cell.
 fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
     let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
     let path = evaluator.top("particles.shift");

@@ -88,8 +88,7 @@ pub struct Case {
     pub expectation: Option<Expectation>,
     /// Expectation for a full run, if different.
     pub expectation_in_full: Option<Expectation>,
-    /// Role in `run --gate` (required, exempt or excepted) of an external solver without an
-    /// expectation.
+    /// Role in `run --gate` (see [`Gating`]) of an external solver without an expectation.
     pub gating: Option<Gating>,
 }
 

@@ -68,8 +68,7 @@ pub(crate) struct RunSetup {
     pub(crate) level: LevelPlan,
     /// Step lengths (s), repeated cyclically.
     pub(crate) dt: Vec<f64>,
-    /// Share of the stable time step for an automatic `dt`, which is computed once the particles
-    /// exist.
+    /// Share of the stable time step for an automatic `dt`, computed once the particles exist.
     pub(crate) rule: Option<f64>,
     pub(crate) steps: u64,
     pub(crate) full_steps: u64,

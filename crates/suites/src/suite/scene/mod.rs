@@ -67,8 +67,7 @@ pub(crate) const SHORTEST: f64 = 1e-30;
 /// Maximum length of a body (m), because powers of larger lengths overflow.
 pub(crate) const LONGEST: f64 = 1e30;
 
-/// Spare grid cells outside a free face for bodies that expand, in addition to a tenth of the body
-/// length.
+/// Spare grid cells at a free face, for expansion, in addition to a tenth of the body length.
 const SPARE_CELLS: f64 = 2.0;
 
 impl Scene {

@@ -103,7 +103,8 @@ struct Laws {
     measures: [f64; 2],
     paths: &'static [StrainPath],
     mistakes: &'static [LawMistake],
-    /// Returns the finding on a stress that no mistake explains, and whether the steps matter.
+    /// Returns the finding on a wrong stress that no mistake explains. The last argument is true if
+    /// the stress is right with another number of steps.
     otherwise: fn(&Leg, &[Leg], bool) -> LawCause,
 }
 
@@ -137,7 +138,8 @@ impl Leg {
         !(self.relative_error() <= self.bound)
     }
 
-    /// Returns the largest difference between the errors of two legs, over the largest component.
+    /// Returns the largest difference between the errors of two legs, relative to the largest
+    /// expected component.
     fn distance_from(&self, other: &Self) -> f64 {
         let errors = other.stress.iter().zip(&other.expected).map(|(stress, right)| stress - right);
         let moved: Vec<f64> = errors.zip(&self.expected).map(|(off, right)| right + off).collect();
@@ -228,7 +230,8 @@ fn legs(
     paths.into_iter().zip(&scenes).zip(&courses).map(leg).collect()
 }
 
-/// Returns the finding on the first wrong stress; the stresses on simpler paths are correct.
+/// Returns the finding on the first wrong stress. A path is examined only if the stresses on all
+/// simpler paths are correct.
 fn finding(legs: &[Leg], laws: &Laws) -> Result<Option<SolverFinding>, Hindrance> {
     for (k, leg) in legs.iter().enumerate() {
         let next = legs.get(k + 1).filter(|next| {

@@ -4,7 +4,8 @@
 
 use crate::testing::doctor::prelude::*;
 
-/// Rate of compression along the first axis (1/s), where artificial viscosity acts.
+/// Rate of stretch along the first axis (1/s). The rate is negative, because artificial viscosity
+/// acts in compression only. Strains stay below 1e-3.
 pub(super) const STRETCH: f64 = -5e-3;
 /// Rate of shear (1/s).
 pub(super) const SHEAR: f64 = 4e-3;
@@ -25,7 +26,8 @@ pub(crate) struct MeasuredModuli {
     pub(crate) along: f64,
     pub(super) across: f64,
     pub(super) shear: [f64; 2],
-    /// Kinematic viscosity (m2/s) of the stress; negative if the stress follows the strain late.
+    /// Kinematic viscosity (m2/s) of a stress that is proportional to the strain rate; negative if
+    /// the stress follows the strain with a delay.
     pub(super) viscosity: f64,
     /// Ratio of the momentum transferred by averaging to that transferred by stress; at most 1.
     pub(super) averaged_share: f64,
@@ -33,12 +35,13 @@ pub(crate) struct MeasuredModuli {
     pub(super) averaging: f64,
     /// Ratio of the momentum transferred by viscosity to that transferred by stress; at most 1.
     pub(super) viscous_share: f64,
-    /// Error of sums over a sample, relative to the momentum that the free faces gain.
+    /// Error of sums over a sample, relative to the momentum that the free faces gain; zero for a
+    /// complete set of points.
     pub(super) sampling_error: f64,
 }
 
 pub(crate) fn spreading(kind: Kind) -> BoxScene {
-    // With this cell size and these particle numbers, each defect gives moduli of another factor.
+    // With these cells and particle numbers, each defect changes the moduli by another factor.
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], 12.0, 3.0);
     scene.ppc = if kind.0 == 3 { 2 } else { 3 };
     let mut scene = scene.scaled(1.2, 1.0, libm::pow(1.2, kind.0 as f64));
@@ -183,7 +186,8 @@ pub(crate) fn inside(course: &Course, scene: &BoxScene, column: &[f64]) -> Optio
     })
 }
 
-/// Returns the mean of a tensor column over the points for which `is_near` holds, if reported.
+/// Returns the mean of a tensor column (`d * d` numbers per point) over the points for whose label
+/// `is_near` holds. `None` without this column, NaN without such points.
 pub(crate) fn mean_tensor(
     course: &Course,
     column: &[f64],

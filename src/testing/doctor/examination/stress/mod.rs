@@ -1,9 +1,9 @@
 //! Examination of a body that stretches and shears: stress from the momentum flux in the middle.
 //!
-//! With `v = L (X - C)`, the strain is L t and uniform until waves arrive from the free faces.
-//! Through the middle plane with normal i and area A, the upper half gains the momentum `-sigma_ij
-//! A` per unit time from the lower half. It is measured from velocities in a tube, the points near
-//! axis i, and is exact for any basis functions.
+//! With the initial velocity `v = L (X - C)`, the strain is L t and uniform until waves arrive from
+//! the free faces. Through the middle plane with normal i and area A, the upper half gains the
+//! momentum `-sigma_ij A` per unit time from the lower half. The transfer is computed from the
+//! velocities of the points near axis i (a tube), and is exact for any basis functions.
 //!
 //! ```text
 //! measure   the scene, stresses from momentum, and the columns `stress` and `deformation_gradient`
@@ -127,14 +127,15 @@ fn examine_scene(
     Ok((Examined::new(describe(&scene, &measured), findings), measured.averaged_share))
 }
 
-/// Maximum of [`MeasuredModuli::averaging`]. PIC has 1 to 2.2, 2.9 with two sub-steps, and 3.9 with
-/// three, where the measured moduli of a correct solver are too low by an eighth.
+/// Maximum of [`MeasuredModuli::averaging`]. PIC has 1 to 2.2 without sub-steps, 2.9 with two, and
+/// 3.9 with three, where the measured moduli of a correct solver are too low by an eighth.
 const MOST_AVERAGING: f64 = 3.3;
 
 /// Names of findings whose measured values viscosity can also cause.
 const UNNAMED: [&str; 3] = ["stress-scaled", "velocity-gradient-scaled", "moduli-differ"];
 
-/// Returns the finding on the stress from the strain rate, negative if forces follow it late.
+/// Returns the finding on the part of the stress that is proportional to the strain rate. This part
+/// is negative if forces follow the strain with a delay.
 fn viscosity(measured: &MeasuredModuli, scene: &BoxScene) -> SolverFinding {
     let seen = format!(
         "the stress contains a viscous part with the kinematic viscosity {} m2/s",

@@ -13,7 +13,8 @@ const NONE: f64 = 0.2;
 /// Maximum force, relative to the expected force, of a wall that counts as missing.
 const ABSENT: f64 = 0.1;
 
-/// Maximum relative difference between forces of equivalent walls.
+/// Maximum relative difference between forces of walls that are mirror images, or that differ only
+/// in their tangential condition.
 const UNEVEN: f64 = 0.05;
 
 /// Maximum [`Wall::through`] of a wall with a correct force.
@@ -128,7 +129,7 @@ const RULES: [WallRule; 10] = [
          zero",
         "the order of operations on the grid: forces, all loads, new velocities, and walls last",
     ),
-    // Stress at the wall differs from stress elsewhere, so this also detects another order.
+    // Stress at the wall differs from stress elsewhere, so wrongly ordered points are detected.
     (
         |wall| wall.column.is_some_and(|column| !THROWN.contains(&column)),
         |wall| {

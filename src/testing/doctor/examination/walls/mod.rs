@@ -1,4 +1,5 @@
-//! Examination of walls: a body is thrown against a wall, pulled, moved along it, and falls.
+//! Examination of walls on every face: a body is thrown against a wall, is pulled from the wall,
+//! moves along the wall, and falls onto the wall.
 //!
 //! A bar with modulus E and zero Poisson's ratio is fixed at both ends and has the initial velocity
 //! v. Each wall stops the adjacent half with the force `rho c v A`, c^2 = E/rho, one in compression

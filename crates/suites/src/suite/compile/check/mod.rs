@@ -101,6 +101,7 @@ fn refuse_law_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagnostic
     Ok(())
 }
 
+/// Refuses loads that are not allowed in this study, and the FEM bar if it lacks a load.
 fn refuse_foreign(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { evaluator, spec, plan, .. } = study;
     let until = plan.cases.iter().map(|case| case.until).fold(0.0, f64::max);

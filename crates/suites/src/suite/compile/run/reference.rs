@@ -88,6 +88,7 @@ fn same_method(
     }
 }
 
+/// Returns the time step of the reference run (s). Refuses a step that is too long.
 fn shorter(
     path: &SuitePath<'_>,
     dt: &NumberText,
@@ -114,6 +115,8 @@ fn shorter(
     Ok(dt)
 }
 
+/// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level, because
+/// its error is not negligible.
 fn finer(path: &SuitePath<'_>, finest: LevelPlan, fine: LevelPlan) -> Result<(), Diagnostic> {
     if fine.cells >= finest.cells.saturating_mul(FINE_GRID) {
         return Ok(());

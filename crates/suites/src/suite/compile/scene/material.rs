@@ -136,6 +136,7 @@ fn against_varying_density(
 const COMPONENTS: [(&str, usize, usize); 6] =
     [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("yz", 1, 2), ("xz", 0, 2)];
 
+/// Compiles the initial displacement (m); empty if not stated.
 pub(super) fn displacement(
     path: &SuitePath<'_>,
     own: &OneBodySpec,

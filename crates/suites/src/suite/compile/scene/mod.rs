@@ -162,8 +162,7 @@ fn together(
     Ok(scene)
 }
 
-/// Frees the faces of a body inside the bounding box of all bodies, because walls exist only on the
-/// box.
+/// Frees faces inside the bounding box of all bodies, because walls exist only on the box.
 fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     for face in &mut body.faces {
         let axis = face.axis;
@@ -215,6 +214,7 @@ fn overlap(one: &Scene, other: &Scene) -> bool {
         }
 }
 
+/// Returns the distance of a position from a body (m).
 fn distance(body: &Scene, place: &[f64]) -> f64 {
     if let Some(outline) = &body.outline {
         return outline.distance(place);

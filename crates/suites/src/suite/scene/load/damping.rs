@@ -50,6 +50,7 @@ impl LoadKeys for DampingSpec {
     }
 }
 
+/// Damping with the rate alpha(t) (1/s).
 #[derive(Debug)]
 struct DampingLoad(Formula);
 
