@@ -11,7 +11,7 @@
 //! `parameters`. Because aliases are refused, a small file cannot expand into a large value.
 //!
 //! ```
-//! use mpm_verify::suite::yaml::{Source, read};
+//! use mpm_suites::suite::yaml::{Source, read};
 //!
 //! #[derive(serde::Deserialize)]
 //! #[serde(deny_unknown_fields)]
