@@ -1,10 +1,10 @@
 //! First-order correction of a linearised motion: the linear response to the residual of the law.
 //!
 //! A linearised motion u leaves the residual force `r = Div P(u) + rho0 b - rho0 u_tt`, and
-//! residual tractions. The true motion is u + d, to first order with `rho0 d_tt = M d_XX + r`, d =
-//! 0 on held faces, and the residual traction on other faces. The motion must vary along one axis
-//! only. At rest, d follows by integration, else by linear elements, a lumped mass matrix and
-//! central differences.
+//! residual tractions. The true motion is u + d. To first order `rho0 d_tt = M d_XX + r` with the
+//! wave modulus M, d = 0 on held faces, and the residual traction on other faces. The motion must
+//! vary along one axis only. At rest, d follows by integration; otherwise it is computed with
+//! linear elements, a lumped mass matrix and central differences in time.
 
 use super::check::event::Event;
 use super::condition::{Face, FacePoint};
@@ -15,8 +15,10 @@ use super::violation::Violation;
 use mpm_subject::PlaneState;
 use std::cell::Cell;
 
+/// Maximum number of residual evaluations.
 const EVALUATIONS: f64 = 2e5;
 
+/// Minimum and maximum number of elements.
 const ELEMENTS: (f64, f64) = (32.0, 256.0);
 
 /// Time step, relative to the time in which a wave crosses one element.
@@ -148,6 +150,7 @@ impl<'a> Line<'a> {
     }
 
     /// Computes the nodal forces (Pa) of the residual at time `t`, and whether each end is held.
+    /// Returns `None` if a condition has no correction.
     fn forces(&mut self, t: f64) -> Option<(Vec<f64>, [bool; 2])> {
         let last = self.elements;
         let weight = |node: usize| if node == 0 || node == last { 0.5 } else { 1.0 };
@@ -245,8 +248,9 @@ fn root_mean_square(values: &[f64]) -> f64 {
 }
 
 impl Problem {
-    /// Computes the first correction of a linearised motion in a run until `t` (s). `None` unless
-    /// the motion varies along one axis of a single box without heat, or if it is too expensive.
+    /// Computes the first correction of a linearised motion in a run until `t` (s). Returns `None`
+    /// unless the motion varies along exactly one axis of a single box, in 1-D, plane strain or
+    /// 3-D, without heat, and if the computation is too expensive.
     pub fn first_correction(&self, t: f64) -> Option<FirstCorrection> {
         let d = self.dimension();
         let varying: Vec<usize> = (0..d).filter(|axis| self.motion.varies_along(*axis)).collect();

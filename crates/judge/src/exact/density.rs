@@ -19,7 +19,8 @@ const NODES: usize = 33;
 /// Number of quadrature panels along each axis. The density must be positive at their points.
 const PANELS: usize = 4;
 
-/// Densities below this fraction of the largest density are zero, because of rounding on rims.
+/// Densities below this fraction of the largest density count as zero: on the rim of a disk,
+/// rounding makes a density such as 1 - X^2 - Y^2 slightly negative or positive.
 const ROUNDING: f64 = 1e-12;
 
 /// A position in the body where the density is not positive.

@@ -23,7 +23,9 @@ impl Equation {
         pushed_forward(&piola, grad)
     }
 
-    /// Returns `J F^-T N` (Nanson's formula) of the `high` or low face; N for small strains.
+    /// Returns `J F^-T N` (Nanson's formula), the current area vector of the `high` or low face
+    /// along `axis` per unit reference area. N is the outward normal; for small strains, the result
+    /// is N.
     pub fn present_area(&self, grad: &Tensor<f64>, axis: usize, high: bool) -> [f64; 3] {
         let outwards = if high { 1.0 } else { -1.0 };
         let f: Tensor<f64> = if self.is_finite() {
@@ -34,7 +36,8 @@ impl Equation {
         std::array::from_fn(|i| outwards * cofactor(&f, i, axis))
     }
 
-    /// Computes Div P (N/m3) from grad u and `second[k][a][b] = d2 u_k/dX_a dX_b`.
+    /// Computes Div P (N/m3) from grad u and `second[k][a][b] = d2 u_k/dX_a dX_b`. The motion must
+    /// vary only along the first `dimension` axes.
     pub(super) fn divergence(
         &self,
         dimension: usize,

@@ -1,7 +1,8 @@
 //! Thermal expansion in the equation of motion.
 //!
-//! Temperature stretches every axis by `theta = 1 + alpha (T - T0)`. Then `P = theta^(D-1)
-//! P_e(F/theta)`. In small-strain theory, `P = C : eps - (3 lambda + 2 mu)(theta - 1) I`.
+//! Temperature stretches every axis by `theta = 1 + alpha (T - T0)`. Then
+//! `P = theta^(D-1) P_e(F/theta)`, the derivative of the energy `theta^D W(F/theta)`. In
+//! small-strain theory, `P = C : eps - (3 lambda + 2 mu)(theta - 1) I`.
 
 use super::formula::Number;
 use super::heat::TemperatureDerivatives;

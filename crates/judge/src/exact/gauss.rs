@@ -46,8 +46,8 @@ fn points_by(rule: &[(f64, f64)], axes: &[(f64, f64)], panels: usize) -> Vec<(Ve
     all
 }
 
-/// Integrals over lattice cells, the boxes of single particles of a regular lattice. There are 8
-/// points per axis in one and two dimensions, and 4 in three.
+/// Points and weights for integrals over lattice cells, the boxes of single particles of a regular
+/// lattice: 8 points per axis in one and two dimensions, and 4 in three, to limit the cost.
 #[derive(Debug, Clone)]
 pub struct CellQuadrature {
     /// Points of the cube from -1 to 1, with weights.
@@ -62,7 +62,8 @@ impl CellQuadrature {
         Self { points: if dimension < 3 { points(&cube, 1) } else { few() } }
     }
 
-    /// Returns the integral of `value` over the part of a cell (centre, half-lengths) that `holds`.
+    /// Returns the integral of `value` over the part of a cell where `holds` is true. The cell has
+    /// the half-lengths `half` (m) around `centre`.
     pub(super) fn integral(
         &self,
         centre: &[f64],

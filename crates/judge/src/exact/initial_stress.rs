@@ -1,11 +1,13 @@
 //! Initial stress in the reference configuration.
 //!
-//! For a finite-strain law, it is a second Piola-Kirchhoff stress S0: `P = P_law(F) + F S0` is the
-//! derivative of `W_law(F) + S0 : E`, `E = (F^T F - I)/2` (Merodio, Ogden & Rodriguez 2013, Int. J.
-//! Non-Linear Mech. 56). Small waves along S0 satisfy `rho0 c^2 = M + S0`. For a small-strain law,
-//! `P = C : eps + S0` neglects `grad u S0`, so S0 must be much smaller than the moduli.
+//! For a finite-strain law, the initial stress is a second Piola-Kirchhoff stress S0. Then
+//! `P = P_law(F) + F S0` is the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2`
+//! (Merodio, Ogden & Rodriguez 2013, Int. J. Non-Linear Mech. 56). Small waves along S0 satisfy
+//! `rho0 c^2 = M + S0`. For a small-strain law, `P = C : eps + S0` neglects `grad u S0`, so S0 must
+//! be much smaller than the moduli.
 //!
-//! For a law with a yield surface, S0 is the stress of an elastic initial strain, and is not added.
+//! For a law with a yield surface, S0 is the stress of the elastic strain at the start. It is not
+//! added to the stress of the law.
 
 use super::formula::{Formula, Number, Slope};
 use super::tensor::{Tensor, pushed_forward, sum, tensor};
@@ -13,12 +15,13 @@ use super::tensor::{Tensor, pushed_forward, sum, tensor};
 /// Initial stress S0 (Pa), a symmetric tensor field on the reference body.
 #[derive(Debug, Clone, Default)]
 pub struct InitialStress {
-    /// Row <= column, and formula of the coordinates, of each given component; others are zero.
+    /// Row, column and formula of the coordinates, with row <= column. Other components are zero.
     components: Vec<(usize, usize, Formula)>,
 }
 
 impl InitialStress {
-    /// Creates a field from row, column and formula of components on one side of the diagonal.
+    /// Creates a field from its components: row, column and formula of the coordinates. Each
+    /// component is given on one side of the diagonal only.
     pub fn new(components: Vec<(usize, usize, Formula)>) -> Self {
         Self { components }
     }

@@ -68,14 +68,16 @@ impl Motion {
         })
     }
 
-    /// Prepares the evaluation at the positions `labels` (m), with all terms constant in time.
+    /// Prepares the evaluation of the motion at the reference positions `labels` (m). This call
+    /// computes the terms that do not depend on time.
     pub fn at_places(&self, labels: &[&[f64]]) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Jet<{ D + 1 }>>(labels, Jet::variable))
         })
     }
 
-    /// Prepares the evaluation like [`Self::at_places`], but with first derivatives only.
+    /// Prepares the evaluation like [`Self::at_places`], but with first derivatives only. Second
+    /// derivatives are not written.
     pub fn slopes_at_places(&self, labels: &[&[f64]]) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Slope<{ D + 1 }>>(labels, Slope::variable))
@@ -97,7 +99,8 @@ pub trait Places: Send {
     /// Sets the time to `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// Writes the derivatives at position number `place`, without those on missing axes.
+    /// Writes the derivatives at the position with index `place`, except those on missing axes. The
+    /// values are bit-identical to those of [`Motion::derivatives`]. Does not allocate.
     fn derivatives(&mut self, place: usize, into: &mut Derivatives);
 }
 

@@ -22,7 +22,8 @@ pub struct ParametricMotion {
     pub value: f64,
 }
 
-/// Displacement and velocity at one position and time, and their derivatives by the parameter.
+/// Displacement and velocity at one position and time, with their derivatives with respect to the
+/// parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParametricState {
     /// Displacement (m).
@@ -36,7 +37,7 @@ pub struct ParametricState {
 }
 
 impl ParametricMotion {
-    /// Computes the state at the position `label` (m) and time `t` (s) from the formulas.
+    /// Computes the state at the reference position `label` (m) and time `t` (s).
     pub fn at(&self, label: &[f64], t: f64) -> ParametricState {
         let mut variables: Vec<Jet<2>> = label.iter().map(|x| Jet::from(*x)).collect();
         variables.extend([Jet::variable(t, 0), Jet::variable(self.value, 1)]);

@@ -40,9 +40,10 @@ pub struct Problem {
     pub equation: Equation,
     /// Terms of the loads in the equation of motion.
     pub terms: Vec<Arc<dyn Term>>,
-    /// Whether the motion is an equilibrium under the loads at the end, without initial conditions.
+    /// Whether the motion is an equilibrium: it does not depend on t, is checked with the loads at
+    /// the end of the run, and need not satisfy the initial conditions.
     pub at_rest: bool,
-    /// Whether a body force is added for the motion (manufactured solutions, Roache 2002).
+    /// Whether an added body force makes the motion a solution (manufactured, Roache 2002).
     pub manufactured: bool,
     /// The heat problem of a heat-conducting body.
     pub heat: Option<Conduction>,
@@ -68,7 +69,8 @@ pub struct Problem {
     pub shared: Option<Arc<SharedValues>>,
 }
 
-/// The residual of a linearised motion. Conditions linear in u keep the tolerance of the problem.
+/// The residual that a linearised motion may have in the equation of motion and in tractions.
+/// Conditions that are linear in u are checked with the tolerance of the problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linearised {
     /// Maximum residual, relative to the terms of the condition.
@@ -395,7 +397,8 @@ impl Forcing {
         Self { problem: problem.clone(), places, labels, shared }
     }
 
-    /// Writes [`Problem::manufactured_force`] (m/s2) at each position and time `t` (s).
+    /// Writes [`Problem::manufactured_force`] (m/s2) at each position and time `t` (s). Allocates
+    /// only for shared forces.
     pub fn at(&mut self, t: f64, into: &mut [[f64; 3]]) {
         let dimension = self.problem.dimension();
         let known =

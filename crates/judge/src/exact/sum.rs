@@ -171,7 +171,7 @@ impl BodySum {
         self.with_sizes(&[t])[0].0
     }
 
-    /// Computes the sum and its size at `times` (s), with terms of the position computed once.
+    /// Computes the sum and its size at `times` (s). Terms constant in time are computed once.
     fn with_sizes(&self, times: &[f64]) -> Vec<ValueAndSize> {
         let mut sums = vec![([0.0; 3], 0.0); times.len()];
         for sites in self.sites.chunk_by(|a, b| a.body == b.body) {

@@ -6,7 +6,8 @@ use std::fmt::Debug;
 
 /// The terms of a load in `rho0 u_tt = Div P + rho0 b`. A load implements the methods it needs.
 pub trait Term: Debug + Send + Sync {
-    /// Returns component i of the force (m/s2) at `label` (m), for the displacement `u` (m).
+    /// Returns component i of the prescribed force per unit mass (m/s2) at the position `label` (m)
+    /// and time `t` (s), for the displacement `u` (m).
     fn stated(&self, _i: usize, _label: &[f64], _t: f64, _u: &[f64; 3]) -> f64 {
         0.0
     }
@@ -26,12 +27,14 @@ pub trait Term: Debug + Send + Sync {
         false
     }
 
-    /// Whether the load is a body force b, which the check compares with that of the motion.
+    /// Whether the load is a body force b. The check then compares b with the body force that the
+    /// motion requires.
     fn is_body_force(&self) -> bool {
         false
     }
 
-    /// Returns one component of a force against the motion (m/s2).
+    /// Returns one component of a force that opposes the motion (m/s2), from the same component of
+    /// the velocity (m/s) and of the unbalanced force, `Div P/rho0 + b` (m/s2).
     fn resistance(&self, _t: f64, _velocity: f64, _unbalanced: &dyn Fn() -> f64) -> f64 {
         0.0
     }
@@ -46,7 +49,8 @@ pub trait Term: Debug + Send + Sync {
         None
     }
 
-    /// Returns the index in [`Outline::rims`](super::Outline::rims) and the pressure (Pa).
+    /// Returns the index of a rim in [`Outline::rims`](super::Outline::rims) and the pressure on it
+    /// (Pa, per current area), a formula of the coordinates and t.
     fn pressed_rim(&self) -> Option<(usize, &Formula)> {
         None
     }

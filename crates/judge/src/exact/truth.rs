@@ -2,7 +2,8 @@
 
 /// A known solution: closed form, manufactured, or a much finer computation.
 pub trait Truth: Send + Sync {
-    /// Writes the D components of the displacement (m) of the point `label` at time `t` (s).
+    /// Writes the D components of the displacement (m) of the point with reference position `label`
+    /// at time `t` (s).
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]);
 
     /// Writes the displacements (m) of all points `labels`, with `d` numbers for each point.

@@ -48,7 +48,8 @@ impl Violation {
         self.accepted_by(1.0).unwrap_or(0.0)
     }
 
-    /// Returns the smallest accepted tolerance; `None` for a condition without tolerance.
+    /// Returns the smallest tolerance with which the solution would be accepted, if its problem has
+    /// the given `tolerance`. `None` for a condition without tolerance.
     pub fn accepted_by(&self, tolerance: f64) -> Option<f64> {
         Some(tolerance * ((self.found - self.expected?).abs() / self.allowed?))
     }

@@ -24,7 +24,8 @@ pub(crate) fn step(extent: f64, largest: &[f64]) -> f64 {
     scales.filter(|scale| *scale > 0.0).fold(STEP * extent, f64::min)
 }
 
-/// Reports a violation only if three successive `events` fail, because kinks mislead differences.
+/// Reports a violation only if `check` fails at three successive events: at kinks, such as wave
+/// fronts, finite differences are wrong.
 pub(crate) fn away_from_kinks<'a>(
     events: impl ExactSizeIterator<Item = &'a Event>,
     check: impl Fn(&Event) -> Result<(), Violation>,

@@ -96,7 +96,7 @@ pub(super) fn share(left: f64, size: f64) -> f64 {
 /// Number of events in a body if only a small part of it has large terms.
 pub(crate) const EVENTS: usize = 4096;
 
-/// Number of events on a face, or another part of fewer dimensions, in the same case.
+/// Number of events on a face (or an edge) if only a small part of the body has large terms.
 pub(crate) const FACE_EVENTS: usize = 1024;
 
 /// Divisor of [`EVENTS`] and [`FACE_EVENTS`] if terms are large in a large part of the body.

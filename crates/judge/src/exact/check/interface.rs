@@ -3,7 +3,8 @@
 //! Bodies with one velocity field are bonded: displacement and traction are continuous. Bodies in
 //! contact do not penetrate and do not pull, and friction resists sliding.
 //!
-//! The motion may jump at a face, so it is expanded about a point 1e-9 body lengths inside.
+//! A formula that describes several bodies may jump at their interface. The motion at a face is
+//! therefore expanded about a point 1e-9 body lengths inside the body.
 
 use super::event::{AXES, Event, FACE_EVENTS, OnFace};
 use super::friction::{InterfaceTraction, coulomb};
@@ -28,7 +29,8 @@ impl Condition for Interface {
 const INSIDE: f64 = 1e-9;
 
 /// Checks the high face of the body `one` against the low face of the body `other` along `axis`.
-/// Without `friction` the bodies are bonded. `largest` contains the scales of the residuals.
+/// Without `friction` the bodies are bonded. `largest` contains the scales of the residuals over
+/// all bodies.
 ///
 /// # Errors
 /// The first condition that the motions violate.
@@ -53,7 +55,7 @@ pub fn meets(
     found.into_result()
 }
 
-/// Returns the motion on a face, expanded about a point `inside` (m) the body along `axis`.
+/// Returns the motion on a face, expanded about a point at the depth `inside` (m) along `axis`.
 fn on_face(problem: &Problem, event: &Event, axis: usize, inside: f64) -> Derivatives {
     let mut label = event.label.clone();
     label[axis] -= inside;

@@ -16,7 +16,8 @@ use super::problem::{Linearised, Problem};
 use super::violation::Violation;
 
 impl Problem {
-    /// Checks the motion at random points: the equation, boundary and initial conditions.
+    /// Checks the motion at reproducible random points: the equation (pointwise and in weak form),
+    /// the boundary conditions and the initial conditions.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -24,7 +25,8 @@ impl Problem {
         self.check_with(&Survey::new(self))
     }
 
-    /// Checks the motion like [`check`](Self::check), with the `survey` of a whole scene.
+    /// Checks the motion like [`check`](Self::check), relative to the magnitudes in `survey`. For
+    /// several bodies, these must be the maxima over all bodies.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -48,7 +50,8 @@ impl Problem {
         boundary::conditions(self, std::slice::from_ref(face), survey).err()
     }
 
-    /// Returns the largest relative residual; NaN if another condition is violated.
+    /// Returns the largest relative residual of the equation of motion and of tractions; NaN if it
+    /// is not finite, or if a condition that does not involve the law is violated.
     pub fn residual(&self) -> f64 {
         let problems =
             if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies };

@@ -1,6 +1,6 @@
 //! Checks of a motion at points: initial conditions, equation of motion, rims and loading path.
 //!
-//! A rim is the boundary of a body that is not a box. With a pressure p, `P n = -p J F^-T n` there.
+//! A rim is the boundary of a body that is not a box. There `P n = -p J F^-T n` for a pressure p.
 //!
 //! For laws with history, exact solutions are valid only under monotonic loading.
 
@@ -80,7 +80,7 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     let mut found = LargestViolation::default();
     for SurveyPoint { event, now, divergence, force, .. } in &survey.points {
         let rho0 = problem.density.at(&event.label);
-        // A uniform stretch of a body of revolution gives no other scale of (P_rR - P_tT)/R.
+        // At a uniform stretch, second derivatives give no scale of the hoop term (P_rR - P_tT)/R.
         let is_ring = problem.plane == PlaneState::Axisymmetric;
         let hoop = if is_ring { ROUNDING * survey.largest.stress / event.label[0] } else { 0.0 };
         let rounding = rounding.max(hoop);
@@ -171,7 +171,8 @@ pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(),
     Ok(())
 }
 
-/// Checks that the law has a stress: cam-clay has none where it yields in extension or softens.
+/// Checks that the law has a stress for each strain. Cam-clay has none where it yields in extension
+/// or softens, and most laws have none for a body that is turned inside out.
 pub(crate) fn known_stress(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     for SurveyPoint { event, now, .. } in &survey.points {
         let piola = problem.piola(&event.label, event.t, now);

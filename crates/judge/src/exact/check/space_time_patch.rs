@@ -23,7 +23,7 @@ impl SpaceTimePatch {
         self.centre.len() - 1
     }
 
-    /// Creates a random patch in a box and in at most `longest` (s) of the run until `until` (s).
+    /// Creates a random patch in a box, at most `longest` (s) long, in the run until `until` (s).
     pub(crate) fn in_box(
         random: &mut Random,
         from: &[f64],
@@ -79,10 +79,10 @@ impl SpaceTimePatch {
         Self { centre: (0..half.len()).map(within).collect(), half }
     }
 
-    /// Returns an upper bound on the sum of all terms of a balance with the density `largest`.
+    /// Returns an upper bound on the sum of all terms of a balance with the densities `largest`.
     pub(super) fn largest_sum(&self, largest: &Densities, per_axis: usize) -> f64 {
         let d = self.dimension();
-        // On one axis, the bump has the integral 32/35, and the magnitude of its slope 2.
+        // On one axis, the integral of the bump is 32/35, that of the magnitude of its slope 2.
         let points = per_axis as f64;
         let mean: f64 = (0..d).map(|_| 16.0 / 35.0 * points).product();
         let slope = |axis: usize| mean * points / self.half[axis];

@@ -1,8 +1,8 @@
 //! Samples a problem: positions and times of the checks, and the largest terms.
 //!
 //! Events (positions with a time) are distributed evenly. If terms are large only in a small part,
-//! more events are used, close to the largest terms. Residuals are divided by the largest term at
-//! all events, because terms far from a pulse are only rounding errors.
+//! events are added close to the largest terms, to resolve narrow pulses. Residuals are divided by
+//! the largest term at all events, because terms far from a pulse are only rounding errors.
 
 use super::event::{BROAD, EVENTS, Event, FACE_EVENTS, SpaceTimeBox, greatest, largest};
 use crate::exact::motion::Derivatives;
@@ -14,7 +14,7 @@ const ROUNDS: usize = 8;
 
 const ADDED: usize = 16;
 
-/// Minimum share of the even events at which a resolved quantity has half of its maximum.
+/// Minimum share of evenly distributed events at which a resolved quantity has half its maximum.
 const RESOLVED: f64 = 1.0 / 16.0;
 
 /// Maximum relative distance of an added event in the first round. Each round halves it.

@@ -5,7 +5,7 @@
 //! (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`. For a body of revolution, dX is
 //! replaced by `R dX`, and `P_tT phi` is subtracted in the radial component.
 //!
-//! The motion is evaluated once for points that differ only along axes without variation.
+//! The motion is evaluated once for points that differ only along axes on which it is constant.
 
 use super::space_time_patch::{AxisPoint, Densities, Raster, SpaceTimePatch, bump, labels};
 use super::survey::{Magnitudes, Survey};
@@ -17,7 +17,8 @@ use crate::exact::violation::Violation;
 /// Number of patches if the fields may have kinks at unknown positions.
 const PATCHES: usize = 12;
 
-/// Number of patches if the fields are smooth. They only detect a front between all random points.
+/// Number of patches if the fields are smooth. The pointwise equation then implies the weak form;
+/// the patches only detect a front so steep that it contains no random point.
 const PATCHES_OF_SMOOTH_FIELDS: usize = 2;
 
 pub(crate) fn patches(smooth: bool) -> usize {
@@ -77,7 +78,8 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
 }
 
 /// Compares gain and loss over a patch by the midpoint rule. If the imbalance changes with twice
-/// and four times the points, the check is repeated on the half patch around the largest term.
+/// and four times the points per axis, the check is repeated on the half patch around the largest
+/// term.
 ///
 /// `condition` is the beginning of a message and ends with the name of the equation.
 pub(crate) fn balances<const N: usize>(
@@ -245,7 +247,8 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
     all
 }
 
-/// Distinct positions of a raster. Points that differ only along axes without variation share one.
+/// Distinct positions of a raster. Points that differ only along axes on which the motion is
+/// constant share a position.
 pub(super) struct DistinctPlaces {
     /// The first raster point at each position.
     pub(super) first: Vec<usize>,

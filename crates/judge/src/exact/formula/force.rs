@@ -36,7 +36,8 @@ impl FormulaForce {
         Self { formulas: formulas.to_vec(), labels, hoisted }
     }
 
-    /// Writes the force (m/s2) at each position; `u` returns the displacement (m) of a position.
+    /// Writes the force (m/s2) at each position and time `t` (s), without allocation. `u` returns
+    /// the displacement (m) of the position with a given index.
     pub fn write(&mut self, t: f64, u: &dyn Fn(usize) -> [f64; 3], into: &mut [[f64; 3]]) {
         if let Some(hoisted) = &mut self.hoisted {
             hoisted.set_time(t);
@@ -55,7 +56,7 @@ impl FormulaForce {
     }
 
     /// Computes an upper bound on the largest eigenvalue (1/s2) of the symmetric part of -db/du,
-    /// over all positions at t = 0, from Gershgorin circles.
+    /// over all positions at t = 0, from Gershgorin circles. `u` is as in [`write`](Self::write).
     pub fn stiffness(&self, u: &dyn Fn(usize) -> [f64; 3]) -> f64 {
         if !depends_on_displacement(&self.formulas) {
             return 0.0;
@@ -82,7 +83,8 @@ fn depends_on_displacement(formulas: &[Formula]) -> bool {
 }
 
 impl Formula {
-    /// Evaluates the formula at the reference position `label` (m) for the displacement `u` (m).
+    /// Evaluates the formula at the reference position `label` (m) and time `t` (s), for the
+    /// displacement `u` (m).
     pub fn at_displaced(&self, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         at_displaced(self, label, t, u)
     }

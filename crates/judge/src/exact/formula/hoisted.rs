@@ -3,7 +3,8 @@
 //! The steps of a program are split by their dependence: on position, on time, or on both.
 //!
 //! Sums are unrolled and registers are renamed, so each step is a node that is computed once
-//! (static single assignment). The operations that lead to a number, and its bits, do not change.
+//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). The operations that lead to a
+//! number do not change, so values are bit-identical.
 
 use super::bound::Formula;
 use super::builtin::Binary;
@@ -13,7 +14,8 @@ use std::collections::BTreeMap;
 
 /// Formulas of the same variables (coordinates, then time) at fixed positions for many times.
 ///
-/// Terms of position only, or of time only, are computed once. Values equal [`Formula::eval`].
+/// Terms that depend only on position are computed once per position, and terms that depend only on
+/// time once per time. The values are bit-identical to those of [`Formula::eval`].
 #[derive(Debug, Clone)]
 pub struct Hoisted<T> {
     split: Split,
@@ -27,7 +29,8 @@ pub struct Hoisted<T> {
 }
 
 impl<T: Number> Hoisted<T> {
-    /// Splits formulas of this many `variables` into [`Formula::operations`] steps, without sums.
+    /// Splits formulas with this number of `variables`. Sums are unrolled, so a formula has
+    /// [`Formula::operations`] steps.
     ///
     /// # Panics
     /// If a formula has a different number of variables.
@@ -46,7 +49,7 @@ impl<T: Number> Hoisted<T> {
         }
     }
 
-    /// Adds a position; the first has index 0.
+    /// Adds a position with one coordinate per variable except time; the first has index 0.
     pub fn add(&mut self, coordinates: &[T]) {
         let last = self.variables.len() - 1;
         self.variables[..last].copy_from_slice(coordinates);
@@ -263,7 +266,8 @@ impl Homes {
     }
 }
 
-/// Returns the part that computes an input of `reader`; `time` also computes constants of `rest`.
+/// Returns the part that computes an input of `reader`. A part computes its own constants, but the
+/// constants of `rest`, which runs most often, are computed by `time`.
 fn home(dependence: Dependence, reader: Dependence) -> Dependence {
     match (dependence, reader) {
         (NOTHING, BOTH) => TIME,

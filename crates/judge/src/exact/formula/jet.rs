@@ -5,7 +5,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::number::{Number, whole};
 use super::unary::Unary;
 
-/// A value with its first and second derivatives by `N` variables, such as coordinates and time.
+/// A value with its first and second derivatives with respect to `N` variables, such as the
+/// coordinates and the time.
 ///
 /// The chain rule is applied exactly, without differences. `max`, `min`, `abs`, `sign`, `step` and
 /// `floor` are differentiated on the selected branch, as if there were no kink or jump. Other
@@ -14,7 +15,7 @@ pub type Jet<const N: usize> = Dual<N, [[f64; N]; N]>;
 
 /// A value with its first derivatives along `N` directions, at a third of the cost of a [`Jet`].
 ///
-/// Equal to a jet bit by bit, except that zero times an infinite derivative is NaN.
+/// Results are bit-identical to a jet, except that zero times an infinite derivative is NaN.
 pub type Slope<const N: usize> = Dual<N, ()>;
 
 /// A value with its first derivatives, and second derivatives of the type `H`.
@@ -144,7 +145,8 @@ impl<const N: usize, H: Hessian<N>> Dual<N, H> {
         self.gradient[i] == 0.0 && (0..N).all(|j| self.hessian.at(i, j) == 0.0)
     }
 
-    /// Clears derivatives with respect to other variables, which would be NaN (infinity times 0).
+    /// Clears the derivatives of variables on which the argument does not depend (`flat`). They
+    /// would be NaN (infinity times 0) if the function has an infinite derivative.
     fn flattened(&self, flat: impl Fn(usize) -> bool) -> Self {
         Self::build(
             self.value,

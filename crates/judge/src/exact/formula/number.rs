@@ -224,7 +224,8 @@ impl Div for NumberBatch {
 }
 
 impl Number for NumberBatch {
-    /// Returns the value of the first lane: formulas branch only on indices of sums.
+    /// Returns the value of the first lane: formulas branch only on the index of a sum, which is
+    /// equal in all lanes.
     #[inline]
     fn value(&self) -> f64 {
         self.0[0]

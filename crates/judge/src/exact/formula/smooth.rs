@@ -8,7 +8,8 @@ use super::unary::Unary;
 impl Formula {
     /// Whether the value is an analytic function of all real variables, without kinks and jumps.
     ///
-    /// A quotient is smooth only if its divisor is constant, because for example `tanh(1/x)` jumps.
+    /// A quotient counts as smooth only if its divisor is constant: `tanh(1/x)` jumps at zero.
+    /// `ln` does not count as smooth: `exp(ln(x^2)/2)` is `abs(x)`.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
         let varies = |operand: &Operand| varies(*operand, &varying);

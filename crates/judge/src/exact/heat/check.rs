@@ -20,7 +20,8 @@ use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
 impl Conduction {
-    /// Checks the temperature at random points: the equation, boundary and initial conditions.
+    /// Checks the temperature at reproducible random points: the heat equation (pointwise and in
+    /// weak form), the boundary conditions and the initial conditions.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -187,7 +188,8 @@ fn differences(
     event.judge(allowed, name, (divergence, exact), "W/m3")
 }
 
-/// Compares the source s of `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s` with the given one.
+/// Compares the source s that `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s` requires with the
+/// prescribed source.
 fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(), Violation> {
     let mut found = LargestViolation::default();
     for point in points {
@@ -213,7 +215,7 @@ pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<
         let (from, to) = (&problem.from[..], &problem.to[..]);
         let patch = SpaceTimePatch::in_box(&mut random, from, to, problem.until, f64::INFINITY);
         let d = problem.dimension();
-        // A constant temperature would increase the scale of the imbalance.
+        // A constant temperature is subtracted: it would increase the scale of the imbalance.
         let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
         let condition = "heat balance across kinks (the heat equation";
         balances(patch, condition, &densities, |raster, smallest| {

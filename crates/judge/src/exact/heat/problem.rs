@@ -116,14 +116,15 @@ impl Truth for Conduction {
 }
 
 /// A thermal condition on one face of the body, checked pointwise.
-#[allow(clippy::missing_errors_doc, reason = "the error is the first violation")]
 pub trait ThermalCondition: Debug + Send + Sync {
     /// Checks the temperature at `point`.
+    ///
+    /// # Errors
+    /// The first violation of the condition.
     fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation>;
 }
 
 /// A point of a face at one time, with the elementary requirements on the temperature.
-#[allow(clippy::missing_errors_doc, reason = "the error is the first violation")]
 pub trait HeatFacePoint {
     /// Evaluates a formula of the coordinates and t at this point and time.
     fn value(&self, formula: &Formula) -> f64;
@@ -135,16 +136,26 @@ pub trait HeatFacePoint {
     fn largest_temperature(&self) -> f64;
 
     /// Requires `T = given` (K).
+    ///
+    /// # Errors
+    /// If the temperature differs.
     fn has_temperature(&self, given: f64) -> Result<(), Violation>;
 
-    /// Requires the heat inflow `given` (W/m^(D-1), reference area); `size` scales its terms.
+    /// Requires that the heat inflow per reference area (W/m^(D-1)) is `given`. `what` describes
+    /// the face in messages; `size` is the scale of the terms in `given`.
+    ///
+    /// # Errors
+    /// If the heat inflow differs.
     fn lets_in(&self, what: &str, given: f64, size: f64) -> Result<(), Violation>;
 
     /// Requires that temperature and heat flux equal those on the opposite face.
+    ///
+    /// # Errors
+    /// The first violation.
     fn continues_on_opposite_face(&self) -> Result<(), Violation>;
 }
 
-/// Evaluates the heat source (W/kg), a formula of the coordinates, t and optionally T.
+/// Evaluates the heat source (W/kg), a formula of the coordinates (m), t (s) and optionally T (K).
 pub fn source_at(formula: &Formula, label: &[f64], t: f64, temperature: f64) -> f64 {
     let mut all = [0.0; 5];
     all[..4].copy_from_slice(&variables(label, t));
@@ -174,7 +185,8 @@ impl HeatForcing {
         }
     }
 
-    /// Writes [`Conduction::manufactured_source`] (W/kg) at each position. Does not allocate.
+    /// Writes [`Conduction::manufactured_source`] (W/kg) at each position and time `t` (s). Does
+    /// not allocate.
     pub fn at(&mut self, t: f64, into: &mut [f64]) {
         self.warm.set_time(t);
         if let Some(motion) = &mut self.motion {

@@ -128,7 +128,8 @@ impl CamClayLaw {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }
 
-    /// Returns `ln(p/p_y)`, the compaction after yield and `eta`, at the K0 distance `exp(-u)`.
+    /// Returns `ln(p/p_y)`, the compaction after yield, and `eta`. The distance of `eta` from the
+    /// ratio of the K0 line is `exp(-u)` times the distance at yield.
     fn beyond_yield(&self, u: f64) -> [f64; 3] {
         let (start, m2, [limit, weight]) =
             (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);
@@ -144,7 +145,7 @@ impl CamClayLaw {
         [pressure, self.compression * pressure + hardening * growth, eta]
     }
 
-    /// Computes `ln(p/p_y)` and the ratio at the compaction `beyond` yield; NaN if it softens.
+    /// Computes `ln(p/p_y)` and `eta` at the compaction `beyond` after yield; NaN for softening.
     fn flowed(&self, beyond: f64) -> [f64; 2] {
         let start = self.ratio_at_yield();
         if !(start < self.slope) {
@@ -239,7 +240,7 @@ mod tests {
         piola * libm::exp(strain)
     }
 
-    /// Values of an independent program.
+    /// Compares with values of an independent program.
     #[test]
     fn a_path_from_an_isotropic_state_approaches_the_k0_line() {
         let law = clay(100.0);

@@ -3,7 +3,8 @@
 use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
 
-/// A law for the first Piola-Kirchhoff stress P, generic over [`Number`] to be differentiated.
+/// A law for the first Piola-Kirchhoff stress P. It is generic over [`Number`], so automatic
+/// differentiation gives the divergence of P.
 pub(super) trait ConstitutiveLaw {
     /// Name of the equation of motion in suites.
     const NAME: &'static str;
@@ -17,7 +18,8 @@ pub(super) trait ConstitutiveLaw {
     /// Computes P (Pa) for `grad[i][j] = du_i/dX_j`, at unit density if the law depends on it.
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D>;
 
-    /// Computes the energy W (J/m3), `P = dW/dF`; `None` for a law without energy, or with history.
+    /// Computes the energy W (J/m3) with `P = dW/dF`, zero at rest or, for a gas, at infinite
+    /// expansion; `None` for a law without energy, or with history.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let _ = grad;
         None

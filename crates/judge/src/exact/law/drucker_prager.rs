@@ -19,7 +19,8 @@ use super::uniaxial_flow::{UniaxialLaw, UniaxialPlasticity, UniaxialYield};
 pub struct DruckerPragerLaw(UniaxialLaw);
 
 impl DruckerPragerLaw {
-    /// Creates the law from the elastic constants, friction eta, dilation etab and strength k (Pa).
+    /// Creates the law from Young's modulus (Pa), Poisson's ratio, the coefficients of friction eta
+    /// and of dilation etab, and the strength k (Pa).
     pub fn new(young: f64, poisson: f64, friction: f64, dilation: f64, strength: f64) -> Self {
         let lame = Lame::new(young, poisson);
         let bulk = lame.lambda + 2.0 / 3.0 * lame.mu;

@@ -1,6 +1,7 @@
 //! Linear elasticity with the Green-Naghdi rate in simple shear.
 //!
-//! With the rotation angle beta of `F = R U`, `tan(beta) = gamma/2`, the rate gives (Dienes 1979)
+//! The rotation angle beta of `F = R U` satisfies `tan(beta) = gamma/2`. The rate then integrates
+//! to (Dienes 1979)
 //!
 //! ```text
 //! tau12 = 2 mu cos(2 beta) (2 beta - 2 tan(2 beta) ln(cos(beta)) - tan(beta))

@@ -1,4 +1,5 @@
-//! Hencky elasticity, `P = tau F^-T`, `tau = lambda tr(eps) I + 2 mu eps`, `eps = ln(F F^T)/2`.
+//! Hencky elasticity, `P = tau F^-T`, `tau = lambda tr(eps) I + 2 mu eps`, `eps = ln(F F^T)/2`
+//! (Hencky 1928).
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;

@@ -2,7 +2,8 @@
 //!
 //! While the logarithmic strain `eps` grows along one direction, the stress is a function of it
 //! (Hencky 1924): `tau = K tr(eps) I + s dev(eps)`, with `s = 2 mu` up to `q = sqrt(3/2) |2 mu
-//! dev(eps)| = Y`, and `q = Y + H alpha` and `3 mu alpha = q_elastic - q` after yield.
+//! dev(eps)| = Y`, and `q = Y + H alpha` and `3 mu alpha = q_elastic - q` after yield. The law is
+//! used in uniaxial strain; `monotone_loading` checks that the loading never reverses.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use super::uniaxial_flow::{UniaxialLaw, UniaxialYield};
@@ -18,12 +19,14 @@ pub struct J2Law {
 }
 
 impl J2Law {
-    /// Creates the law from Young's modulus, Poisson's ratio, yield stress and hardening modulus.
+    /// Creates the law from Young's modulus (Pa), Poisson's ratio, the yield stress in tension (Pa)
+    /// and the hardening modulus (Pa).
     pub fn new(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
         Self { lame: Lame::new(young, poisson), yield_stress, hardening }
     }
 
-    /// Returns the law in uniaxial strain. A unit of flow reduces the stresses by 2 mu and -mu.
+    /// Returns the law in uniaxial strain, where `q = |axial - lateral|`. A unit of flow reduces
+    /// the axial stress by 2 mu and the lateral stress by -mu if the axial stress is the largest.
     fn uniaxial(&self) -> UniaxialLaw {
         let Self { lame, yield_stress: strength, hardening } = *self;
         let limit = |sign: f64| UniaxialYield {

@@ -1,4 +1,5 @@
-//! Constitutive laws of exact solutions. Each has a file and a line of `laws!`.
+//! Constitutive laws of exact solutions, implemented independently of the solvers. Each law has a
+//! file and a line of `laws!`.
 
 mod contract;
 #[cfg(test)]

@@ -15,7 +15,8 @@ use super::uniaxial_flow::{UniaxialLaw, UniaxialPlasticity, UniaxialYield};
 pub struct MohrCoulombLaw(UniaxialLaw);
 
 impl MohrCoulombLaw {
-    /// Creates the law from elastic constants, friction and dilation (degrees) and cohesion (Pa).
+    /// Creates the law from Young's modulus (Pa), Poisson's ratio, the angles of friction and
+    /// dilation (degrees), and the cohesion (Pa).
     pub fn new(
         young: f64,
         poisson: f64,

@@ -1,4 +1,5 @@
-//! Neo-Hookean `P = lambda ln(J) F^-T + mu (F - F^-T)` (Wallstedt & Guilkey 2008; Kamojjala 2015).
+//! Neo-Hookean elasticity, `P = lambda ln(J) F^-T + mu (F - F^-T)` (Wallstedt & Guilkey 2008;
+//! Kamojjala et al. 2015).
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
@@ -18,7 +19,8 @@ impl NeoHookeanLaw {
 /// Maximum number of Newton steps for the thickness of a plate; strains of 100 % need about five.
 const MOST_STEPS: usize = 100;
 
-/// Performs one Newton step from the thickness strain `eps` of a plate with the area strain `log`.
+/// Performs one Newton step from the logarithmic thickness strain `eps` of a plate whose
+/// logarithmic area strain is `log`.
 fn newton<T: Number>(Lame { lambda, mu }: Lame, log: T, eps: T) -> T {
     let (lambda, mu, square) = (T::from(lambda), T::from(mu), Number::exp(eps + eps));
     let force = lambda * (log + eps) + mu * (square - T::from(1.0));

@@ -63,14 +63,16 @@ macro_rules! laws {
                 }
             }
 
-            /// Computes P (Pa) for `grad[i][j] = du_i/dX_j`, see [`Equation::density_factor`].
+            /// Computes P (Pa) for `grad[i][j] = du_i/dX_j`, at unit density if the law depends on
+            /// the density, see [`Equation::density_factor`].
             pub fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
                 match self {
                     $(Self::$law(law) => law.piola(grad),)+
                 }
             }
 
-            /// Computes the energy W (J/m3) whose derivative is P; `None` for a law without energy.
+            /// Computes the energy W (J/m3) whose derivative is P, for unit density like P; `None`
+            /// for a law without energy.
             pub fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
                 match self {
                     $(Self::$law(law) => law.energy(grad),)+
@@ -84,7 +86,8 @@ macro_rules! laws {
                 }
             }
 
-            /// Returns the ratio of P, energy and modulus at `density` (kg/m3) to unit density.
+            /// Returns the ratio of P, energy and modulus at `density` (kg/m3) to those at unit
+            /// density.
             pub fn density_factor<T: Number>(&self, density: T) -> T {
                 match self {
                     $(Self::$law(law) => law.density_factor(density),)+

@@ -4,6 +4,7 @@ use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, tensor};
 
 /// Computes `P = tau F^-T` (Pa) for plane simple shear along the first axis; otherwise NaN.
+/// `kirchhoff` returns components 11 and 12 of the trace-free Kirchhoff stress for gamma.
 pub(super) fn piola_in_simple_shear<T: Number, const D: usize>(
     grad: &Tensor<T, D>,
     kirchhoff: impl FnOnce(T) -> [T; 2],

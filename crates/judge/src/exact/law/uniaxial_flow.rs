@@ -54,7 +54,8 @@ pub(in crate::exact) fn strained_axis<T: Number, const D: usize>(
     others.all(|(i, j)| is_zero(i, j)).then_some(axis)
 }
 
-/// Computes P (Pa) in uniaxial strain from `kirchhoff`. NaN for any other deformation.
+/// Computes P (Pa) in uniaxial strain, where `kirchhoff` returns the axial and the lateral
+/// Kirchhoff stress (Pa) at a logarithmic strain along an axis. NaN for any other deformation.
 pub(super) fn uniaxial_piola<T: Number, const D: usize>(
     grad: &Tensor<T, D>,
     kirchhoff: impl FnOnce(T, usize) -> [T; 2],
@@ -99,7 +100,8 @@ impl UniaxialLaw {
         [sign * self.lame.modulus(), sign * self.lame.lambda]
     }
 
-    /// Returns the yield condition that a path from `start` (Pa) reaches first, and its strain.
+    /// Returns the yield condition that a path from `start` (Pa) reaches first, and the magnitude
+    /// of the strain at yield.
     fn first_yield<T: Number>(&self, sign: f64, start: [T; 2]) -> Option<(&UniaxialYield, T)> {
         let reached = self.limits.iter().filter_map(|limit| {
             let towards = limit.dot(self.rates(sign));

@@ -51,7 +51,8 @@ pub trait Outline: Debug + Send + Sync {
         0.0
     }
 
-    /// Returns the part of a cell (`centre` and half-lengths `half`) in the body, as particles.
+    /// Returns the part of a lattice cell that belongs to the body, as particles. The cell has the
+    /// half-lengths `half` (m) around `centre`.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut;
 
     /// Returns the volume of the part of the body in a box (m^D).

@@ -1,9 +1,11 @@
-//! Parts of a body that become particles, and merging of small parts.
+//! Parts of a body that become particles, and merging of small parts. A lattice cell is the box of
+//! one particle of a regular lattice.
 
 use super::ROUNDING;
 use std::collections::BTreeMap;
 
-/// Minimum piece, as a share of a lattice cell. A smaller piece alone would limit the time step.
+/// Minimum size of a piece, as a share of a lattice cell. A smaller piece would limit the time step
+/// if it were the only particle in the support of a node.
 const LEAST: f64 = 0.25;
 
 /// The part of a lattice cell that belongs to the body.
@@ -72,8 +74,9 @@ impl Piece {
 }
 
 /// Merges pieces smaller than a quarter of a lattice cell with the neighbour that shares the
-/// longest boundary, if the centroid stays in the body (`holds`), the smallest piece first. `cuts`
-/// contains all cells, `along` per row, with half-lengths `half` (m) around `centres` (m).
+/// longest boundary, if the centroid stays in the body (`holds`), the smallest piece first. Volumes
+/// and first moments do not change. `cuts` contains all cells, row by row with `along` per row;
+/// the cells have half-lengths `half` (m) around their `centres` (m).
 pub fn join_small(
     cuts: &mut [Cut],
     along: usize,

@@ -122,7 +122,8 @@ impl Outline for Polygon {
     }
 
     /// Returns the exact intersection of cell and body, with a particle at its centroid, or one for
-    /// each convex piece if the centroid is outside. Sums are of second order in the spacing.
+    /// each convex piece if the centroid is outside the body. Sums over the particles approximate
+    /// integrals to second order in the spacing, also at the rim.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
         let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
         let is_near = |corners: &&TriangleCorners| {
@@ -179,7 +180,8 @@ impl Outline for Polygon {
             left < 0.0
         });
         let chart = chosen.unwrap_or(self.triangles.len() - 1);
-        // The area grows in proportion to the first coordinate; the square root makes it uniform.
+        // The area per unit of the first coordinate is proportional to it. The square root makes
+        // the distribution uniform.
         self.place(chart, &[random.unit().sqrt(), random.unit()]).0
     }
 
@@ -323,7 +325,8 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
             };
             turn(&a, &b, &c) > 0.0 && left.iter().all(|k| own.contains(k) || !inside(&corners[*k]))
         };
-        // Removes corners on a straight line first. Without ears, the largest triangle is removed.
+        // A corner on a straight line is removed first. If rounding hides all ears, the largest
+        // triangle is removed; the sum of signed areas remains correct.
         let area = |i: &usize| at(*i).map(|p| side(&at(*i)[0], &p));
         let area = |i: &usize| cross(&area(i)[1], &area(i)[2]);
         let flat = (0..n).find(|i| area(i) == 0.0);
@@ -337,7 +340,8 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
     found
 }
 
-/// Returns the part of a convex polygon where `height` is not negative (Sutherland & Hodgman 1974).
+/// Returns the part of a convex polygon where `height`, a linear function of position, is not
+/// negative (Sutherland & Hodgman 1974).
 pub(super) fn clip(corners: &[Point], height: impl Fn(&Point) -> f64) -> Vec<Point> {
     let mut kept = Vec::with_capacity(corners.len() + 1);
     for (i, to) in corners.iter().enumerate() {

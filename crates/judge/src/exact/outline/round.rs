@@ -197,7 +197,8 @@ fn direction(angle: f64, height: f64) -> [f64; 3] {
 /// Number of panels between two kinks. With four, a kink just outside causes an error of 1e-9.
 const PANELS: usize = 8;
 
-/// Computes the volume common to a ball and the box between `ends`, by slices (smaller balls).
+/// Computes the volume of the intersection of a ball at the origin and the box between `ends`, by
+/// integration over slices, which are intersections with a ball of one dimension less.
 pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     let Some((&(low, high), others)) = ends.split_last() else { return 1.0 };
     let (low, high) = (low.max(-radius), high.min(radius));
@@ -215,7 +216,7 @@ pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     }
 }
 
-/// Integrates `slice` between two kinks, smooth by the substitution `(3 xi - xi^3)/2`.
+/// Integrates `slice` between two kinks. The substitution `(3 xi - xi^3)/2` makes it smooth there.
 fn integral(ends: &[f64], slice: impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (f64::midpoint(ends[0], ends[1]), 0.5 * (ends[1] - ends[0]));
     let term = |(xi, weight): &(Vec<f64>, f64)| {
@@ -238,7 +239,8 @@ fn between_chords(radius: f64, low: f64, high: f64, ends: &[f64]) -> f64 {
     if middle.min(high) > low.max(-middle) { top - bottom } else { 0.0 }
 }
 
-/// Returns `low`, `high` and where between them a slice touches faces, edges or corners, sorted.
+/// Returns the sorted positions from `low` to `high` at which a slice touches a face, an edge or a
+/// corner of `others`, including both ends.
 fn kinks(radius: f64, others: &[(f64, f64)], low: f64, high: f64) -> Vec<f64> {
     let with = |squares: Vec<f64>, (from, to): &(f64, f64)| -> Vec<f64> {
         squares.into_iter().flat_map(|s| [s, s + from * from, s + to * to]).collect()

@@ -247,7 +247,7 @@ fn bodies_overlap_where_they_have_an_area_in_common() {
     assert_relative_eq!(body.distance(&[0.2, 0.2]), 0.0);
 }
 
-/// The domain of half of a square has its area, and is inclined like its hypotenuse.
+/// The domain of a triangle has its area, and is inclined like its hypotenuse.
 #[test]
 fn domains_have_the_shape_of_the_piece() {
     let piece = |body: Polygon| match body.cut(&[0.5; 2], &[0.5; 2]) {

@@ -76,7 +76,8 @@ impl<'a> ProgramBuilder<'a> {
         self.compile(&mut frame, expr.root(), 0)
     }
 
-    /// Compiles a node and its children, left operands by a loop, others by (limited) recursion.
+    /// Compiles a node and its children. A loop compiles chains of left operands, which may be as
+    /// long as the source; for other operands the parser limits the depth of the recursion.
     fn compile(
         &mut self,
         frame: &mut Frame<'a>,

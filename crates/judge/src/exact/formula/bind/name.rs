@@ -7,6 +7,7 @@ use crate::exact::formula::lexer::FormulaError;
 use crate::exact::formula::program::Operand;
 use mpm_subject::{by_nearness, nearest};
 
+/// Maximum number of constants that a message lists.
 const LISTED: usize = 8;
 
 impl<'a> ProgramBuilder<'a> {
