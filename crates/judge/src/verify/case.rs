@@ -24,7 +24,8 @@ pub struct CaseJudgement {
     pub study: Convergence,
 }
 
-/// Judges a case from the `runs` of its levels. `reruns` runs levels again to find a cause.
+/// Judges a case from the `runs` of its levels. `reruns` runs levels again to find the cause of an
+/// error floor, or with shorter time steps for `run --gate`.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
     runs: Vec<LevelRun>,

@@ -40,7 +40,8 @@ pub struct Convergence {
     pub bounded: bool,
     /// Reason why an external solver meets the requirement of `run --gate`, if it does.
     pub accepted: Option<Acceptance>,
-    /// Remarks of `run --gate`: rounding bound, order far above theory, shorter time step.
+    /// Remarks of `run --gate`: the rounding bound, an order far above the required one, and a
+    /// shorter time step that restored the order.
     pub remarks: Vec<String>,
     /// Conserved sums with a reported drift.
     pub drifts: Vec<Conserved>,
@@ -83,11 +84,13 @@ pub struct LevelOutcome {
     pub error: f64,
     /// Whether the level may count for the verdict.
     pub usable: bool,
-    /// Bound on the rounding error in the judged norm, if the judgement uses it.
+    /// Bound on the rounding error in the judged norm, in the unit of the judged quantity, for a
+    /// solver in single precision or a case with a requirement of `run --gate`.
     pub rounding_bound: Option<f64>,
     /// Whether the displacement error (m) is smaller than `rounding_bound`.
     pub is_below_rounding: bool,
-    /// Largest difference between repeated runs, relative to the scale; NaN if not comparable.
+    /// Largest difference between repeated runs, in the judged norm and divided by the scale of the
+    /// error. NaN if the runs cannot be compared; `None` if the level ran once.
     pub spread: Option<f64>,
     /// Order between the next coarser level and this one.
     pub order: Option<f64>,

@@ -24,7 +24,9 @@ named! {
     }
 }
 
-/// Returns the distance (m) of `largest` (m) from the next smaller normal single-precision number.
+/// Returns the distance (m) between `largest`, the largest absolute coordinate (m) of a particle,
+/// and the next smaller single-precision number. `None` if `largest` is zero or not a normal number
+/// in single precision.
 pub fn single_precision_spacing(largest: f64) -> Option<f64> {
     // The coordinate is rounded first: 1 + 1e-16, for example, is 1 in single precision.
     let largest = largest as f32;
@@ -32,11 +34,13 @@ pub fn single_precision_spacing(largest: f64) -> Option<f64> {
     is_normal.then(|| f64::from(largest) - f64::from(largest.next_down()))
 }
 
-/// Returns the bound (m) on the accumulated rounding of positions to multiples of `spacing` (m).
+/// Returns the bound (m), in `norm`, on the accumulated rounding error of positions after `steps`
+/// steps. In each step positions are rounded to multiples of `spacing` (m).
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
-/// `spacing/sqrt 12`. In the worst case all rounding errors are equal, and the sum of N is `N
-/// spacing/sqrt 12` in the RMS norm, and `N spacing/2` in the maximum norm.
+/// `spacing/sqrt 12`. In the worst case all rounding errors are equal, because increments change
+/// little from step to step. The sum of N rounding errors is then `N spacing/sqrt 12` in the RMS
+/// norm, and `N spacing/2` in the maximum norm.
 pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
     let most = steps as f64 * spacing;
     match norm {

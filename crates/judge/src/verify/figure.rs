@@ -19,7 +19,8 @@ use mpm_subject::named;
 /// its [`FigureNeed`], and the function that computes the value from the levels of a case. The
 /// documentation of the entry becomes the documentation of the key in the JSON Schema.
 ///
-/// The grammar declares the fields, because `flatten` excludes `deny_unknown_fields`.
+/// The grammar uses this macro to declare a field for each entry, because `#[serde(flatten)]` over
+/// a map of keys cannot be combined with `deny_unknown_fields`.
 #[macro_export]
 macro_rules! each_case_figure {
     ($declare:ident) => {

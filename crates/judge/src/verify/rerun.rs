@@ -19,7 +19,8 @@ pub trait Reruns: Sync {
     /// Reason why a level cannot be run.
     type Error: Display + Send;
 
-    /// Whether halving a spacing can reveal a cause: not with a reference by the same method.
+    /// Whether halving a spacing can reveal which axis causes an error. False if the reference is
+    /// computed by the same method, because the spacings of the reference are not halved.
     fn can_halve(&self) -> bool;
 
     /// Runs the level with half the spacing on an axis; `None` if the level has no such spacing.
@@ -32,7 +33,8 @@ pub trait Reruns: Sync {
     /// If the level cannot be set up.
     fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelRun, Self::Error>;
 
-    /// Returns sizes of numbers that the solver rounds; `None` without a natural size.
+    /// Returns the sizes of the numbers that the solver rounds; `None` if the judged quantity has
+    /// no natural size.
     fn rounding(&self) -> Option<RoundingSizes>;
 }
 
@@ -53,16 +55,19 @@ const ROUNDINGS: f64 = 8.0;
 /// Maximum fraction of the judged quantity that is attributed to rounding.
 const MOST_ROUNDING: f64 = 0.01;
 
+/// Maximum number of times that the time step is halved.
 const HALVINGS: i32 = 3;
 
-/// Minimum relative decrease of the error on the finest level after the time step is halved.
+/// Minimum relative decrease of the error on the finest level after the time step is halved. With a
+/// smaller decrease the other levels do not run again.
 const LEAST_FALL: f64 = 0.05;
 
 /// Minimum exponent of h for which a time step counts as refined together with the cells.
 const FOLLOWS: f64 = 0.5;
 
-/// Measures the effect of halving the other spacings on the error of the finest level that counts.
-/// `None` if the error decreases and no floor is expected, or if this level failed.
+/// Measures the effect of halving the spacings of the other axes on the error of the finest level
+/// that counts. `None` if the error has not stopped decreasing and the suite expects no floor, if
+/// this level failed, or if spacings cannot be halved.
 ///
 /// Runs one to three probes in parallel. The results are listed in the order of the axes.
 pub(super) fn floor<R: Reruns>(
@@ -155,7 +160,9 @@ fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
         && first.dt < last.dt * libm::pow(first.h / last.h, FOLLOWS)
 }
 
-/// Estimates the relative rounding error of a random walk of the largest number of the quantity.
+/// Estimates the error due to rounding, in the judged norm and relative to the judged scale:
+/// rounding errors of the largest number from which the judged quantity is computed are added like
+/// the steps of a random walk.
 pub(super) fn rounding<R: Reruns>(
     plan: &JudgePlan<'_>,
     levels: &[LevelOutcome],

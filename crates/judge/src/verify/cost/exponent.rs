@@ -43,7 +43,8 @@ pub enum Agreement {
 
 impl Exponent {
     /// Returns the exponent over the asymptotic levels of `part`, or over all its levels if fewer
-    /// than three are asymptotic. `None` with fewer than three levels, or if the slope may be zero.
+    /// than three are asymptotic. `order` and `growth` are the theoretical values. `None` with
+    /// fewer than three levels, or if the interval of the slope contains zero.
     pub fn of(samples: &[Sample], part: &ConvergingPart, order: f64, growth: f64) -> Option<Self> {
         let levels = &samples[part.levels.clone()];
         let asymptotic: Vec<Sample> = levels.iter().filter(|one| one.asymptotic).copied().collect();

@@ -1,6 +1,7 @@
 //! Cost of accuracy: the method that reaches an error with the least work.
 //!
-//! Work is any additive measure, such as seconds or the number of transfers.
+//! Work is any additive measure, such as seconds or the number of particle-node transfers. Rankings
+//! do not extrapolate: a method with larger errors on all levels does not reach the target.
 
 mod exponent;
 mod ranking;

@@ -119,7 +119,8 @@ fn order(a: &[Reach], b: &[Reach]) -> Ordering {
 }
 
 /// Ranks the comparable cases of a suite, with one ranking for each problem; `work` returns the
-/// work of a level. Cases without an error scale or with fewer than three levels are excluded.
+/// work of a level. Cases without exact solution or reference, problems without an error scale, and
+/// cases with fewer than three levels are excluded.
 pub fn rankings<'a>(
     cases: impl IntoIterator<Item = &'a CaseOutcome>,
     work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,

@@ -83,8 +83,9 @@ impl End {
 }
 
 impl ConvergingPart {
-    /// Returns the converging part of sorted levels, with the largest decrease of the error if
-    /// there are several. Without one, `levels` is empty and `end` has the reason.
+    /// Returns the converging part of levels sorted from coarse to fine, the one with the largest
+    /// decrease of the error if there are several. Without one, `levels` is empty and `end` has the
+    /// reason.
     pub fn of(samples: &[Sample]) -> Self {
         let mut best: Option<(f64, Range<usize>)> = None;
         let mut start = 0;

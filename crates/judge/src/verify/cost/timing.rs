@@ -33,7 +33,8 @@ pub struct Machine {
     pub cores: usize,
     /// Load average over a minute, before and after, if the system reports it.
     pub load: Option<[f64; 2]>,
-    /// Fraction of the time that the measuring thread waited for a core; `None` if not reported.
+    /// Fraction of the time during which the measuring thread waited for a core. Measured seconds
+    /// exclude this time, unless the system does not report it (`None`).
     pub waited: Option<f64>,
     /// Time (s) of a constant loop between measurements, whose spread is the noise of the machine.
     pub fixed_loop: Option<Timing>,
@@ -67,7 +68,8 @@ impl Timing {
 pub struct TimedSuite {
     /// Results of the suite's cases and of their variants.
     pub outcome: SuiteOutcome,
-    /// Workload and time of each level of each case; no time if the set-up failed.
+    /// Workload and time of each level of each case; no time if the set-up failed. The time of a
+    /// failed run ends at the failure.
     pub levels: Vec<Vec<(Workload, Option<Timing>)>>,
     /// State of the machine.
     pub machine: Machine,

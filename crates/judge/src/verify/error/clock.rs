@@ -28,14 +28,17 @@ pub const MOST_STEPS: f64 = 1e9;
 pub const STEP_TOLERANCE: f64 = 0.01;
 
 impl Clock {
-    /// Creates a clock whose number of steps is nearest to `until / wanted`. With fewer steps than
-    /// `instants`, every step ends at an instant. `None` for invalid times or too many steps.
+    /// Creates a clock whose number of steps is nearest to `until / wanted`, where `wanted` is the
+    /// requested step (s). With fewer steps than `instants`, every step ends at an instant. `None`
+    /// if a time is not positive and finite, or for more than [`MOST_STEPS`] steps.
     pub fn new(until: f64, wanted: f64, instants: u64) -> Option<Self> {
         let steps = Self::usable(until, wanted, instants, libm::round(until / wanted))?;
         Some(Self { until, steps, instants: instants.min(steps) })
     }
 
-    /// Creates a clock with the largest step, at most `wanted` (s), that divides equal intervals.
+    /// Creates a clock with the largest step, at most `wanted` (s), that divides the time between
+    /// equally spaced instants. Runs with different steps then share their instants. `None` under
+    /// the conditions of [`Clock::new`].
     pub fn with_common_instants(until: f64, wanted: f64, instants: u64) -> Option<Self> {
         let between = until / (wanted * instants as f64);
         // A ratio that is an integer up to rounding is rounded to this integer.

@@ -24,7 +24,8 @@ pub(super) struct Declaration {
     pub(super) exact_at_all: Option<ExactAtAll>,
     /// Size of the exact values by which errors are divided.
     pub(super) size: SolutionSize,
-    /// Returns the magnitude of the stored numbers whose rounding limits the accuracy.
+    /// Returns the magnitude of the stored numbers whose rounding limits the accuracy of the
+    /// quantity, for a body of the given length (m); NaN if unknown.
     pub(super) rounding_size: fn(f64) -> f64,
     pub(super) is_primary: bool,
     /// Whether the quantity is defined only by some solvers and exact solutions.

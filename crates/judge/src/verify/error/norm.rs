@@ -92,16 +92,19 @@ impl Norms {
         }
     }
 
-    /// Returns these norms with `mass_l2` from `errors` and one of `masses` for each label.
+    /// Returns these norms with `mass_l2` computed from `errors` and `masses`, which has one mass
+    /// for each label. Without masses `mass_l2` is `None`.
     #[must_use]
     pub fn with_masses(self, errors: &[f64], dimension: usize, masses: &[f64]) -> Self {
         let by_mass = || Self::of(errors, dimension, masses).l2;
         Self { mass_l2: (!masses.is_empty()).then(by_mass), ..self }
     }
 
-    /// Computes the norms of `errors`, `dimension` components and one weight for each label.
+    /// Computes the norms of `errors`, which contains `dimension` components for each label, label
+    /// by label. `weights` contains one weight for each label.
     ///
-    /// Not finite if an error or weight is not; NaN without labels or for unusable weights.
+    /// A norm is not finite if an error or weight is not finite. All norms are NaN without labels,
+    /// for slices whose lengths do not match, and for weights that are negative or all zero.
     pub fn of(errors: &[f64], dimension: usize, weights: &[f64]) -> Self {
         let total: f64 = weights.iter().sum();
         let fits = dimension > 0 && errors.len() == dimension * weights.len();
@@ -196,10 +199,12 @@ pub fn larger(a: f64, b: f64) -> f64 {
 pub struct ErrorScale {
     /// End of the run and kind of solution. Only cases with the same problem are compared.
     pub problem: String,
-    /// Divisor that turns an error into a fraction of the solution: the largest exact magnitude, or
-    /// NaN if there is none; 1 if the suite gives a scale, which is already applied.
+    /// Divisor that turns an error into a fraction of the solution, in the unit of the judged
+    /// error: the largest exact magnitude, or NaN if there is none; 1 if the suite gives a scale,
+    /// which is already applied.
     pub size: f64,
-    /// Exponent g in work ~ spacing^-g: the refined axes plus the exponent of the steps.
+    /// Exponent g in work ~ spacing^-g: the number of refined axes of the body, plus the exponent
+    /// of the number of steps.
     pub growth: f64,
 }
 

@@ -14,7 +14,8 @@ pub struct History {
 }
 
 impl History {
-    /// Starts the history of the label nearest to `wanted` (the first of equal ones).
+    /// Starts the history of the label of `samples` that is nearest to `wanted`, the first of
+    /// equally near ones. `None` without labels.
     pub fn start(samples: &Samples, wanted: &[f64]) -> Option<(usize, Self)> {
         let d = samples.dimension;
         let distance = |p: usize| -> f64 {
@@ -34,7 +35,8 @@ impl History {
         self.velocity.push([t, samples.velocity[at * samples.dimension], exact[0]]);
     }
 
-    /// Returns the RMS of the velocity error over time, relative to the largest exact speed.
+    /// Returns the RMS of the velocity error over time, relative to the largest exact speed; `None`
+    /// if the exact velocity is always zero.
     pub fn relative_error(&self) -> Option<f64> {
         let square: f64 = self.velocity.iter().map(|[_, v, e]| (v - e) * (v - e)).sum();
         let largest = self.velocity.iter().map(|[_, _, e]| e.abs()).fold(0.0, f64::max);
@@ -44,8 +46,8 @@ impl History {
 
 const NEAR: usize = 4;
 
-/// Interpolates the displacement at a fixed point of a lattice of labels, by cubic Lagrange
-/// interpolation of up to four labels around it on each axis. `None` without a lattice.
+/// Interpolates the displacement at a fixed point by cubic Lagrange interpolation, from up to four
+/// labels around the point on each axis. `None` if the labels near the point do not form a lattice.
 pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
     let d = samples.dimension;
     if d == 0 || place.len() != d || samples.is_empty() {
@@ -80,7 +82,9 @@ fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
     all[first..].iter().copied().zip(weights).collect()
 }
 
-/// Returns the Lagrange weights at `x` of the `count` nearest of `sorted`, and the first index.
+/// Computes the weights of the Lagrange interpolation at `x` from the `count` nearest of the
+/// ascending coordinates `sorted`, or from all if there are fewer. Also returns the index of the
+/// first coordinate used.
 pub fn lagrange_weights(sorted: &[f64], x: f64, count: usize) -> (usize, Vec<f64>) {
     let count = sorted.len().min(count);
     let above = sorted.partition_point(|c| *c < x);

@@ -139,7 +139,8 @@ impl Quantity {
         matches!(self, Self::StressZz | Self::MeanStress | Self::DeviatoricStress)
     }
 
-    /// Returns the names of the sample columns of the quantity that not every solver reports.
+    /// Returns the names of the sample columns that the quantity is computed from in `dimension`
+    /// dimensions; empty for a sum over the body, or if every solver reports the quantity.
     pub fn columns(self, dimension: usize) -> Vec<&'static str> {
         if !self.is_optional() || self.is_sum() {
             return Vec::new();
@@ -172,7 +173,8 @@ impl Quantity {
         self.declaration().sum
     }
 
-    /// Returns the magnitude of the stored numbers whose rounding limits the error; NaN if unknown.
+    /// Returns the magnitude of the stored numbers whose rounding limits the smallest possible
+    /// error, for a body of length `length` (m); NaN if unknown.
     pub fn rounding_size(self, length: f64) -> f64 {
         (self.declaration().rounding_size)(length)
     }
@@ -231,7 +233,8 @@ impl Quantity {
         Some(exact.iter().fold(0.0, |all, x| libm::hypot(all, *x)))
     }
 
-    /// Computes norms of `computed - exact` at the labels of `samples`; NaN if undefined.
+    /// Computes norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the
+    /// solver or the exact solution does not define the quantity.
     pub fn errors(self, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
         self.differences(samples, truth, t).map_or(Norms::NONE, |(components, error)| {
             let norms = Norms::of(&error, components, &samples.weight);
@@ -239,7 +242,9 @@ impl Quantity {
         })
     }
 
-    /// Returns `computed - exact` and its number of components; `None` if either is not defined.
+    /// Returns the number of components at each label, and `computed - exact` at the labels of
+    /// `samples` at time `t`. `None` if the solver or the exact solution does not define the
+    /// quantity.
     pub fn differences(
         self,
         samples: &Samples,

@@ -36,10 +36,12 @@ impl Comparison<'_> {
     }
 }
 
-/// Fraction of a run at its end in which a body must be at rest: turning points are no rest.
+/// Fraction of a run at its end in which a body must be at rest. One instant does not suffice,
+/// because an oscillating body has zero velocity at its turning points.
 const LAST: f64 = 0.1;
 
-/// Advances `subject` over all steps of `clock`, and measures its error at every instant.
+/// Advances `subject` over all steps of `clock`, and measures its error against `truth` at every
+/// instant. Also records the velocity of the label nearest to the observed point.
 pub fn run(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -49,7 +51,8 @@ pub fn run(
     RunMonitor::new(subject, truth, comparison).run(subject, clock).0
 }
 
-/// Runs `subject` like [`run`], and records the judged quantity; nothing if the run failed.
+/// Runs `subject` like [`run`]. Also records the judged quantity, for a comparison in `norm` with
+/// other runs of the same level; the record of a failed run is empty.
 pub fn run_recorded(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -238,8 +241,8 @@ pub struct RunResult {
     pub observed_error: Option<f64>,
     /// Exact displacement (m) of the observed point at the end.
     pub observed_exact: Option<Vec<f64>>,
-    /// Largest final speed divided by [`Comparison::at_rest`](crate::verify::Comparison::at_rest),
-    /// if set.
+    /// Largest speed near the end, divided by
+    /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), if that is set.
     pub residual_speed: Option<f64>,
 }
 

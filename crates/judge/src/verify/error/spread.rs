@@ -47,7 +47,8 @@ impl RunRecord {
         self.instants.push(instant.sorted(samples.dimension));
     }
 
-    /// Computes the difference between two runs; NaN if the runs have different labels or instants.
+    /// Computes the difference between two runs in `norm`, in the unit of the judged quantity. NaN
+    /// if the runs have different labels or instants.
     fn difference(&self, other: &Self, norm: NormName) -> f64 {
         let is_alike = self.instants.len() == other.instants.len()
             && self.sums.len() == other.sums.len()
@@ -112,7 +113,8 @@ fn subtract(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-/// Computes the largest difference between two of `runs`; NaN if two cannot be compared.
+/// Computes the largest difference between two of `runs` in `norm`, in the unit of the judged
+/// quantity. NaN if any two runs cannot be compared.
 pub fn spread(runs: &[RunRecord], norm: NormName) -> f64 {
     let pairs = runs.iter().enumerate().flat_map(|(k, a)| runs[..k].iter().map(move |b| (a, b)));
     pairs.map(|(a, b)| a.difference(b, norm)).fold(0.0, super::norm::larger)

@@ -6,7 +6,8 @@ use crate::verify::{
     Verdict, format_number, judge, two_sided_95,
 };
 
-/// Maximum width of an interval in the default range, as a fraction of the range's half-width.
+/// Maximum width of the observed interval for which the default range is proposed, as a fraction of
+/// the half-width of this range.
 const COMFORTABLE: f64 = 0.75;
 
 /// Whether the default range around `order` contains the observed interval with a margin.
@@ -62,7 +63,8 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     advice
 }
 
-/// Suggests the norm with the narrowest interval of the order, if it is much narrower.
+/// Suggests the norm with the narrowest interval of the order, if this interval is much narrower
+/// than in the judged norm.
 fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     const CLEARLY: f64 = 0.5;
     if judged.half_width() <= WIDE {

@@ -13,7 +13,8 @@ use crate::verify::{
 /// Loss of order that a typical defect causes.
 const FAULT: f64 = 0.5;
 
-/// Minimum number of levels within an unstated bound, if coarser levels exceed the bound.
+/// Minimum number of levels within a bound that no `any_method` and no configuration states, if
+/// coarser levels exceed the bound.
 const FEWEST_WITHIN: usize = 2;
 
 /// Maximum excess of the observed order over the required order without a remark.
@@ -37,7 +38,8 @@ pub struct Requirement {
     pub order: Option<f64>,
     /// Bound at or below which errors are accepted without an order.
     pub error_below: Option<f64>,
-    /// Bound for accepting the suite's own methods with too few levels; it rejects no method.
+    /// Bound on the errors of the suite's own methods, if no other bound is given. It may accept a
+    /// method with too few levels for an order, but it rejects no method.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
@@ -94,7 +96,8 @@ impl Requirement {
         self.error_below.or(self.own_error_below)
     }
 
-    /// Returns the reason, never a failure, why these levels cannot test the requirement.
+    /// Returns the reason why these levels cannot test the requirement; `None` if they can. The
+    /// failure of a level is never such a reason, because the gate rejects failures.
     pub(crate) fn untestable(&self, levels: &[Level]) -> Option<String> {
         let has_failed =
             levels.iter().any(|level| level.failed.is_some() || !level.error.is_finite());
@@ -116,7 +119,8 @@ impl Requirement {
         Some(format!("{count}, and an order needs {FEWEST_LEVELS}{own}"))
     }
 
-    /// Returns the reason why the errors of `levels` meet the requirement, despite `rounding`.
+    /// Returns the reason why the errors of `levels` meet the requirement. `judgement` is the
+    /// judgement of the levels, `rounding` the error due to rounding.
     ///
     /// # Errors
     /// One line with the requirement and the measured result.
@@ -196,7 +200,8 @@ impl Requirement {
         OrderHypothesis::formal(self.order.unwrap_or(2.0)).over(axis)
     }
 
-    /// Whether the 95 % interval reaches the lowest accepted order, and excludes lower ones by 0.5.
+    /// Whether the 95 % interval of the order reaches the lowest accepted order, and excludes
+    /// orders that are lower by 0.5 or by half.
     fn has_order(&self, judgement: &Judgement) -> bool {
         use Verdict::{Converging, PreAsymptotic, TooGood, TooLow};
         let (Some(lowest), Some(order)) = (self.lowest(), judgement.order) else { return false };

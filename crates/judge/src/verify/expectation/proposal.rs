@@ -1,7 +1,8 @@
 //! Proposes expectations for a suite without expectations, based on runs of the suite.
 //!
 //! If the observed order agrees with the formal one, the formal order is proposed. Other values are
-//! taken from the run. The uncertainty must be at most half the distance from either bound.
+//! taken from the run. A range is proposed only if the observed order lies inside the range, at a
+//! distance of at least twice its uncertainty from either bound.
 
 use super::advice::{advice, is_inside, range};
 use crate::verify::figure::counted;
@@ -11,7 +12,8 @@ use mpm_subject::named;
 /// Maximum drift that is explained by rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
-/// Minimum ratio of a bound to the measured drift, as sums may be computed in another order.
+/// Minimum ratio of a proposed bound to the measured drift. On another processor, sums may be
+/// computed in a different order, with different rounding errors.
 const ROOM_OF_DRIFT: f64 = 30.0;
 
 /// Ratio of a proposed error bound to the largest measured error.
@@ -157,7 +159,8 @@ fn rounded_up(value: f64) -> f64 {
     format!("{}e{exponent}", digit + 1).parse().unwrap_or(value)
 }
 
-/// Proposes bounds on conserved sums. Only that on mass is due to theory.
+/// Proposes bounds on conserved sums. Only a bound on mass follows from theory: particles have
+/// constant masses in every method.
 fn drifts(study: &Convergence) -> Vec<ProposedKey> {
     let worst = |sum: Conserved| {
         let drift = |level: &LevelOutcome| level.run.drift.map(|drift| drift.of(sum));

@@ -8,7 +8,7 @@ const ALIKE: f64 = 1e-3;
 /// Fraction of a central difference below which a derivative counts as zero.
 const ZERO: f64 = 1e-9;
 
-/// Range of the growth of an error of first or second order in the motion, with twice the motion.
+/// Range of the factor by which an error of first or second order grows with twice the motion.
 const GROWS: (f64, f64) = (1.6, 4.5);
 
 /// Minimum relative error whose growth is measured. Smaller errors may be rounding.
@@ -42,7 +42,8 @@ pub struct GradientEvidence {
     pub entries: Vec<GradientEntry>,
     /// Value of the functional after all steps except the last; NaN if it is unknown.
     pub one_step_less: f64,
-    /// Relative errors with the initial velocity and with twice that velocity; NaN if unknown.
+    /// Relative errors of the derivative, with the initial velocity of the problem and with twice
+    /// that velocity; NaN if unknown.
     pub errors: [f64; 2],
     /// Value of the functional for a Young's modulus near zero; NaN if it is unknown.
     pub without_stress: f64,
@@ -143,7 +144,8 @@ impl GradientEvidence {
         (!moved.is_empty()).then(|| moved.join(", "))
     }
 
-    /// Whether the derivative with respect to the initial velocity is that of free motion.
+    /// Whether the derivative with respect to the factor on the initial velocity is wrong, and
+    /// equals that of a motion without stress, whose functional is proportional to the factor.
     fn is_without_stress(&self) -> bool {
         let velocity = self.entries.iter().find(|entry| entry.parameter == "initial_velocity");
         velocity

@@ -103,7 +103,8 @@ impl GradientStudy {
         self.levels.windows(2).map(|pair| order(pair).unwrap_or(f64::NAN)).collect()
     }
 
-    /// Returns the least-squares order of the derivative error; NaN with unusable levels.
+    /// Returns the order of the derivative error, the slope of the least-squares line of log error
+    /// over log h. NaN with fewer than two levels, or if an error is zero or not finite.
     pub fn order(&self) -> f64 {
         let point = |(index, level): (usize, &GradientLevel)| LogPoint {
             level: index,

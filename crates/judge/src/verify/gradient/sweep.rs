@@ -29,7 +29,8 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Integrates the derivative over sorted `points`; `None` if `rounding` could count as a jump.
+    /// Integrates the derivative over `points`, which are sorted by the parameter. `None` if the
+    /// rounding error of a value, `rounding`, could count as a jump.
     pub fn new(points: &[SweepPoint], rounding: f64) -> Option<Self> {
         let (first, last) = (points.first()?, points.last()?);
         let change = last.value - first.value;

@@ -26,7 +26,8 @@ const SPREAD: f64 = 0.05;
 /// Maximum rounding error of a usable central difference, relative to its magnitude.
 const NOISE: f64 = 0.01;
 
-/// Maximum distance of a correct derivative from the central difference, in its uncertainties.
+/// Maximum distance between a correct derivative and the central difference, in units of the
+/// uncertainty of the central difference.
 const SURE: f64 = 10.0;
 
 /// Values of the functional for one perturbation of the parameter.
@@ -69,7 +70,8 @@ impl Taylor {
         self.perturbed.iter().map(remainder).collect()
     }
 
-    /// Returns the orders of remainders above rounding between consecutive perturbations.
+    /// Returns the orders of the remainder between consecutive perturbations; `None` if a remainder
+    /// is not larger than its rounding error.
     pub fn orders(&self) -> Vec<Option<f64>> {
         let all: Vec<(f64, f64)> =
             self.perturbed.iter().map(|p| p.by).zip(self.remainders()).collect();
@@ -156,7 +158,7 @@ impl Taylor {
     }
 }
 
-/// Returns largest minus smallest number, relative to the largest magnitude; NaN for NaN.
+/// Returns the range of the numbers relative to the largest magnitude; NaN if a number is NaN.
 fn spread(numbers: &[f64]) -> f64 {
     if numbers.iter().any(|number| number.is_nan()) {
         return f64::NAN;

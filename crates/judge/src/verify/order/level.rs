@@ -44,7 +44,8 @@ pub struct Level {
     pub h: f64,
     /// Norm of the error on the level.
     pub error: f64,
-    /// False for a level that is reported but does not count, such as one outside the theory.
+    /// False for a level that is reported but does not count, such as a level on which particles
+    /// change their cell, if the theory does not cover this.
     pub usable: bool,
     /// Reason for the failure of the run, if it failed.
     pub failed: Option<String>,
@@ -124,7 +125,8 @@ fn same(a: f64, b: f64) -> bool {
 /// p = ln(error_coarse / error_fine) / ln(h_coarse / h_fine)
 /// ```
 ///
-/// It is negative if the error grows. `None` for equal spacings, or numbers without logarithm.
+/// The order is negative if the error grows under refinement. `None` if a number is zero, negative
+/// or not finite, or if the spacings are equal.
 pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
     let fall = logarithm(coarse.error)? - logarithm(fine.error)?;
     let ratio = logarithm(coarse.h)? - logarithm(fine.h)?;

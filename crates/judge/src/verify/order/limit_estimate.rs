@@ -26,13 +26,15 @@ const SAFETY_FACTOR: f64 = 3.0;
 /// Maximum difference between the orders of the two triples.
 const ORDER_SCATTER: f64 = 1.0;
 
-/// Minimum order of a triple; below it, the limit is over twice the last change from the finest.
+/// Minimum order of a triple. At lower orders, the distance of the extrapolated from the finest
+/// value is more than twice the last change.
 const LEAST_ORDER: f64 = 0.5;
 
 /// Maximum order of a triple, above the order of any method of this crate.
 const LARGEST_ORDER: f64 = 4.5;
 
-/// Minimum last change, in rounding errors, which then change the ratio by an eighth at most.
+/// Minimum last change, in units of the rounding error of a value. Rounding then changes the ratio
+/// of changes by at most an eighth.
 const LEAST_CHANGE: f64 = 16.0;
 
 /// Relative rounding error of a computed value, which is a sum of several terms.
@@ -52,7 +54,8 @@ pub struct SeriesPoint {
 /// Order and limit of a series of values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LimitEstimate {
-    /// Order of the finest three values, with an interval from that of the next coarser three.
+    /// Order of the finest three values. The width of the interval depends on the difference from
+    /// the order of the next coarser triple.
     pub order: Interval,
     /// Extrapolated value, with an interval of nominally 95 %.
     pub limit: Interval,

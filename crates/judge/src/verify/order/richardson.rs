@@ -13,7 +13,8 @@
 //! Three values always fit, so they give no interval; an interval requires a fourth value
 //! (`limit_estimate`). The index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` of Roache (1994) is not
 //! offered, because it contains the true error of only 73 of 100 series of the suites. The
-//! "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is identically `u1 / u2`.
+//! "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is not offered either: it is identically
+//! `u1 / u2`, which is close to 1 even if the values do not converge.
 
 use crate::exact::bisection::bisect;
 

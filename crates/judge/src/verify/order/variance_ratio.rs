@@ -12,7 +12,8 @@
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
-/// Computes `I_x(nu/2, d/2)` for integers `nu, d >= 1` to a few units of round-off; NaN for NaN.
+/// Computes `I_x(nu/2, d/2)` for integers `nu, d >= 1` and `x` in `[0, 1]`; NaN if `x` is NaN. The
+/// absolute error is a few units of round-off.
 pub(crate) fn regularised(x: f64, nu: usize, d: usize) -> f64 {
     let (mut a, mut b) = (start(nu), start(d));
     let mut beta = complete(nu, d);

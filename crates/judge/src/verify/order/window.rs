@@ -12,7 +12,8 @@
 //! - Levels are dropped at the fine end only if the error stops decreasing (a floor). The verdict
 //!   is then `at floor`.
 //!
-//! The longest such window is selected, of equal ones the finer, until no shorter one replaces it.
+//! Of all such windows the longest is selected; of two equally long ones, the finer. The test is
+//! repeated on the selected window until no shorter one replaces it.
 
 use super::fit::{FittedLine, LogPoint};
 use super::variance_ratio;
@@ -24,7 +25,8 @@ pub const FEWEST_LEVELS: usize = 4;
 /// Probability that noise shortens the window in one step: a tenth of the interval's 5 %.
 const SELECTION_RISK: f64 = 0.005;
 
-/// Minimum departure, in `ln error`, of a dropped level, because round-off may be significant.
+/// Minimum departure, in `ln error`, of a dropped level: 5 %. In noise-free data round-off would
+/// otherwise be statistically significant.
 const MATERIAL: f64 = 0.05;
 
 /// Maximum order of an error that counts as constant: halving `h` changes it by less than 15 %.
@@ -86,7 +88,8 @@ impl Window {
     }
 }
 
-/// Returns the asymptotic window among the points before `end`, the beginning of a floor.
+/// Returns the asymptotic window among the points before `end` (the beginning of a floor, if one is
+/// known). `None` if there are too few points or if no line can be fitted to them.
 pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> Option<Window> {
     if end < FEWEST_LEVELS {
         return None;

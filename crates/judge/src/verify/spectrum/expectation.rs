@@ -7,7 +7,9 @@ use crate::verify::{AMPLITUDE, SpectrumRow};
 pub struct SpectrumExpectation {
     /// Maximum deviation of the phase error.
     pub phase_within: Option<f64>,
-    /// Maximum deviation of the logarithm of the amplitude per period, for small strains.
+    /// Maximum deviation of the logarithm of the amplitude per period. A difference per step below
+    /// the strain of the wave is accepted, because the closed form assumes particles at rest and
+    /// neglects terms of this order.
     pub damping_within: Option<f64>,
 }
 

@@ -71,7 +71,8 @@ impl Recurrence {
         2.0 * self.deficit * (1.0 + self.determinant) - self.deficit * self.deficit - lost * lost
     }
 
-    /// Returns the phase angle per step, if the eigenvalues are complex.
+    /// Returns the phase angle per step (rad), the argument of the complex eigenvalues; `None` if
+    /// the eigenvalues are real or NaN.
     pub fn angle(&self) -> Option<f64> {
         let discriminant = self.discriminant();
         (discriminant > 0.0).then(|| libm::atan2(discriminant.sqrt(), self.trace()))
@@ -86,12 +87,14 @@ impl Recurrence {
         libm::log(0.5 * (self.trace().abs() + (-discriminant).sqrt()))
     }
 
-    /// Returns the relative error of the phase speed; `None` if the wave is overdamped.
+    /// Returns the relative error of the phase speed of a wave of `cells` cells, at the Courant
+    /// number `courant`. `None` if the wave is overdamped and has no phase.
     pub fn phase_error(&self, cells: f64, courant: f64) -> Option<f64> {
         Some(self.angle()? / (TAU / cells * courant) - 1.0)
     }
 
-    /// Returns the logarithm of the amplitude factor over one exact period of a wave.
+    /// Returns the logarithm of the amplitude factor over one exact period of a wave of `cells`
+    /// cells, at the Courant number `courant`.
     pub fn log_kept_per_period(&self, cells: f64, courant: f64) -> f64 {
         self.log_modulus() * cells / courant
     }

@@ -39,7 +39,8 @@ pub struct SpectrumRow {
     pub predicted: Option<WaveFigures>,
     /// Phase error and damping from the run, or the reason why there are none.
     pub measured: Result<WaveFigures, String>,
-    /// Minimum number of cells per wavelength for a predicted phase error below 1 %.
+    /// Minimum number of cells per wavelength for a predicted phase error below 1 %. `None` without
+    /// a prediction, or if this holds for all waves of two cells or more.
     pub cells_for_one_percent: Option<f64>,
     /// Predicted stability limit of the Courant number.
     pub limit: Option<f64>,

@@ -27,8 +27,9 @@ pub struct MeasuredWave {
     pub determinant: f64,
 }
 
-/// Returns the number of steps over [`PERIODS`] exact periods of a wave of `cells` cells, or until
-/// the amplitude, predicted by the factor `log_kept` per step, is a millionth.
+/// Returns the number of steps over [`PERIODS`] exact periods of a wave of `cells` cells. The run
+/// ends earlier if the predicted amplitude decreases to a millionth; `log_kept` is the predicted
+/// logarithm of the amplitude factor of a step, if there is a prediction.
 pub fn steps_of_run(cells: f64, courant: f64, log_kept: Option<f64>) -> u64 {
     let whole = libm::ceil(PERIODS * cells / courant);
     let damped = log_kept.filter(|log_kept| *log_kept < 0.0);
@@ -50,7 +51,8 @@ pub struct ObservedWave {
 }
 
 /// Runs `subject` and fits a recurrence to the series of `sum v sin(k X)` over its particles, with
-/// `k = 2 pi/length`. The initial state, which no step may produce, is excluded.
+/// the wave number `k = 2 pi/length` and X from the beginning of the row. The series excludes the
+/// initial state, because this state may not result from a step.
 ///
 /// # Errors
 /// Message that names the failed step.

@@ -1,13 +1,15 @@
 //! The amplification matrix of a step of a solver whose particles keep their position on the grid.
 //!
-//! Near rest, `s(n+1) = A s(n)`. Column j of A is the result of runs with entry j perturbed:
-//! central differences eliminate quadratic terms. Natural sizes do not change eigenvalues.
+//! Near rest, `s(n+1) = A s(n)` for small perturbations. Column j of A is computed from runs with
+//! entry j perturbed; central differences eliminate quadratic terms (volume times stress). Entries
+//! are scaled by their natural sizes, which does not change eigenvalues.
 
 use mpm_subject::{Failure, Perturbable};
 use nalgebra::DMatrix;
 use thiserror::Error;
 
-/// Relative size of a perturbation; F = I is rounded to 1e-10 of it.
+/// Size of a perturbation, relative to the natural size of the entry. The rounding error of F = I
+/// plus the perturbation is then 1e-10 of the perturbation.
 const STEP: f64 = 1e-6;
 
 /// Maximum change of a state of rest in a step, relative to the natural sizes.

@@ -1,6 +1,7 @@
 //! Finds the smallest value of a parameter that is not stable.
 //!
-//! The scan goes upwards, because a larger value may be stable again, and is then bisected.
+//! The range is scanned upwards, because a larger value may be stable again. The first interval
+//! with an unstable upper end is bisected.
 
 /// Stability limit of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +24,8 @@ impl StabilityLimit {
     }
 }
 
-/// Tests `points` values from `low` to `high`, then bisects to the relative length `tolerance`.
+/// Tests `points` values in geometric progression from `low` to `high`, which are both positive,
+/// then bisects to the relative interval length `tolerance`.
 ///
 /// # Errors
 /// The first error of `stable`.

@@ -3,9 +3,11 @@
 use nalgebra::DMatrix;
 use nalgebra::linalg::Schur;
 
+/// Maximum number of QR iterations.
 const PATIENCE: usize = 1_000;
 
-/// Fraction of its diagonal neighbours below which an entry below the diagonal counts as zero.
+/// An entry below the diagonal counts as zero if it is less than this fraction of its diagonal
+/// neighbours. Rounding errors would prevent convergence with a much smaller threshold.
 const SMALL: f64 = 1e-13;
 
 /// Number of times that the matrix is squared: powers up to 2^30.

@@ -2,7 +2,8 @@
 //!
 //! The energy is the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is the stiffness against
 //! uniaxial strain: the strain energy in 1-D at small strain, otherwise only the size of the
-//! stress. It is divided by its initial value, or by that of a unit strain for a body at rest.
+//! stress. The energy is divided by its initial value, or by the energy of a unit strain if the
+//! body starts at rest.
 
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
 use crate::verify::error::norm::largest_length;
@@ -194,7 +195,9 @@ pub(super) fn stress_spread(samples: &Samples) -> f64 {
     (high - low) / high.abs().max(low.abs())
 }
 
-/// Computes the RMS deviation of mean stresses from neighbours, relative to their RMS, or NaN.
+/// Computes the RMS difference between the mean normal stress of a particle and that of its
+/// neighbours, relative to the RMS of the mean normal stress. NaN without stresses or neighbours,
+/// or with too many particles.
 pub(super) fn checkerboard(samples: &Samples) -> f64 {
     let (n, d) = (samples.len(), samples.dimension.max(1));
     let Some(pressure) = pressures(samples).filter(|_| (2..=MOST).contains(&n)) else {

@@ -38,9 +38,11 @@ pub struct Scales {
     pub stable_below: f64,
     /// Energy, relative to its initial value, above which a run is unstable and ends.
     pub unstable_above: f64,
-    /// Whether the kinetic energy excludes that of the centre of mass, as for a free body.
+    /// Whether the kinetic energy excludes the energy of the centre of mass, because the common
+    /// velocity of a free body does not indicate growth.
     pub centred: bool,
-    /// Whether every check measures velocities without momentum at any node (the null space).
+    /// Whether every check measures the part of the particle velocities that gives no momentum to
+    /// any node (the null space of the map to the grid).
     pub null_space: bool,
 }
 
@@ -67,13 +69,15 @@ pub struct Trial {
     pub least_j: f64,
     /// Largest speed during the run, relative to the wave speed.
     pub speed: f64,
-    /// Final kinetic energy in the null space, relative to the largest; NaN if not measured.
+    /// Kinetic energy at the end in the null space of the map to the grid, relative to the largest
+    /// kinetic energy of the run. NaN if it was not measured.
     pub null_share: f64,
     /// Largest kinetic energy in the null space, relative to the largest kinetic energy of the run.
     pub largest_null_share: f64,
     /// Largest minus smallest mean normal stress at the end, relative to the largest magnitude.
     pub stress_spread: f64,
-    /// RMS of pressure differences between neighbouring particles at the end, relative to its size.
+    /// RMS of the pressure differences between neighbouring particles at the end, relative to the
+    /// mean size of the pressure.
     pub checkerboard: f64,
     /// Largest stress at the end, divided by the modulus.
     pub stress: f64,

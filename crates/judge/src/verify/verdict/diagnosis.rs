@@ -14,7 +14,7 @@ const RISE: f64 = 0.25;
 /// Maximum difference between orders that count as equal.
 const ALIKE: f64 = 0.1;
 
-/// Maximum fraction of the distance from the theoretical order that a restored order leaves.
+/// Maximum remaining fraction of the distance from the theoretical order for a restored order.
 const CLOSER: f64 = 0.5;
 
 /// Effect by which a change reveals the cause.
@@ -37,7 +37,8 @@ pub struct ChangedRun {
     pub cause: &'static str,
     /// Modification of the suite that restores the order.
     pub remedy: &'static str,
-    /// Reason why `check` rejects the suite with this change, if it was run and does.
+    /// Reason why `check` rejects the suite with this change. `None` if `check` accepts the suite
+    /// or was not run.
     pub refusal: Option<String>,
     /// Verdict on the levels of the run, for an expected order near the theoretical one.
     pub verdict: Verdict,
@@ -157,7 +158,8 @@ impl Diagnosis {
         self.findings.iter().find(|finding| finding.kind == kind)
     }
 
-    /// Returns the causes, most likely first; no exact solution if a run restores the order.
+    /// Returns the causes, starting with the most likely one. If a run restores the theoretical
+    /// order, the exact solution is not a cause.
     pub fn causes(&self) -> Vec<Cause<'_>> {
         use KnownCauseKind::{CoarseLevels, NotSmooth};
         if self.is_known() {

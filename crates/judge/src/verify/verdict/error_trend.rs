@@ -32,8 +32,9 @@ const TURNS: usize = 3;
 ///
 /// The first level is returned if the line through all points has an order significantly below
 /// -0.2. Otherwise the divergent part begins at the smallest error, has at least three levels, and
-/// grows at least twofold. Also the last error must be at least twice the first of the series, the
-/// error must rise over the last two pairs, or the line through the part must have such an order.
+/// grows at least twofold. One of three conditions must also hold: the last error is at least twice
+/// the first of the series, the error rises over the last two pairs, or the line through the
+/// divergent part has an order significantly below -0.2.
 pub(crate) fn divergence(points: &[LogPoint]) -> Option<usize> {
     if points.len() < FEWEST_LEVELS {
         return None;
@@ -61,8 +62,9 @@ fn line_rises(part: &[LogPoint]) -> bool {
 }
 
 /// Returns the index of the first level of a flat fine end: the longest tail with an order below
-/// 0.2 whose errors lie in a band of a factor of two. `None` without a decreasing part before it,
-/// or if the formal order would change the error by less than a factor of two over the tail.
+/// 0.2 whose errors lie in a band of a factor of two. It must follow a decreasing part or begin at
+/// the first level. `None` if even the formal order would change the error by less than a factor of
+/// two over the tail.
 pub(crate) fn flat_tail(points: &[LogPoint], formal_order: f64) -> Option<usize> {
     let starts = 0..=points.len().checked_sub(FEWEST_OF_TREND)?;
     starts.into_iter().find(|&start| {

@@ -6,7 +6,9 @@
 use crate::verify::{Axis, format_number};
 use mpm_subject::named;
 
-/// Minimum relative decrease of the error due to half the spacing of an axis that is the cause.
+/// Minimum relative decrease of the error, due to half the spacing of an axis, for which this axis
+/// is the cause. A decrease by a quarter means that the axis causes half of the error if its order
+/// is one, and a third if its order is two.
 const LEAST_FALL: f64 = 0.25;
 
 named! {
@@ -43,7 +45,8 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// Returns the axis with the largest effect, or [`FloorCause::Nothing`] if every probe ended.
+    /// Returns the cause of the floor: of the axes that lower the error enough, the one with the
+    /// largest effect. [`FloorCause::Nothing`] requires that every probe reached its end.
     pub fn cause(&self) -> Option<FloorCause> {
         let errors =
             self.probes.iter().filter_map(|probe| Some((probe, *probe.error.as_ref().ok()?)));

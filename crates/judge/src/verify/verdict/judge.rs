@@ -41,7 +41,8 @@ const FEWEST_BEFORE_FLOOR: usize = 3;
 pub struct Judgement {
     /// The verdict.
     pub verdict: Verdict,
-    /// Observed order with its 95 % confidence interval; `None` if no order was fitted.
+    /// Observed order with its 95 % confidence interval, over the asymptotic levels, the levels
+    /// before a floor, or the divergent levels. `None` if no order was fitted.
     pub order: Option<Interval>,
     /// Levels in the fit of the order, as indices into `levels`.
     pub window: Option<Vec<usize>>,
