@@ -182,7 +182,8 @@ impl Problem {
         placed.fold(0.0, |sum, term| sum + term.stated(i, label, t, u))
     }
 
-    /// Returns component i of the forces (m/s2) that oppose the motion; `stated` is prescribed.
+    /// Returns component i of the forces that oppose the motion (m/s2); `stated` is the prescribed
+    /// force (m/s2).
     pub(super) fn resistance(
         &self,
         i: usize,

@@ -287,7 +287,8 @@ mod tests {
         }
     }
 
-    /// With density 2 + X and stretch 1 + t, `sum m x^2` is (1 + t)^2 `int (2 + X) X^2 dX` = 11/12.
+    /// With density 2 + X and stretch 1 + t, `sum m x^2` is (1 + t)^2 times
+    /// `int (2 + X) X^2 dX` = 11/12.
     #[test]
     fn second_moments_use_the_local_density() {
         let density = Density::of_place(bind("2 + X", &["X"]), &[0.0], &[1.0], None).unwrap();

@@ -137,9 +137,10 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
     tensor(|_, _| T::from(f64::NAN))
 }
 
-/// Computes the rotation R of the polar decomposition `F = R U` by Newton's iteration `R <- (R +
-/// R^-T)/2`, starting at F (Higham 2008, *Functions of Matrices*, section 8.3). R = I if F and its
-/// derivatives are diagonal and F is positive. NaN if [`MOST_TERMS`] iterations do not suffice.
+/// Computes the rotation R of the polar decomposition `F = R U` by Newton's iteration
+/// `R <- (R + R^-T)/2`, starting at F (Higham 2008, *Functions of Matrices*, section 8.3). R = I if
+/// F and its derivatives are diagonal and the diagonal of F is positive. NaN if [`MOST_TERMS`]
+/// iterations do not suffice.
 pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) && (0..D).all(|i| f[i][i].value() > 0.0) {
         return tensor(unit);

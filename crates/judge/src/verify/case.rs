@@ -96,7 +96,8 @@ pub fn judge_case<R: Reruns>(
     }
 }
 
-/// Describes the errors of a case without requirement if all are rounding errors, without order.
+/// Describes the errors of a case without requirement, if all are rounding errors. They have no
+/// order, except by chance.
 fn rounding_without_order<R: Reruns>(
     plan: &JudgePlan<'_>,
     gate: Option<&GateResult>,

@@ -13,7 +13,8 @@ pub struct JudgePlan<'a> {
     pub settings: StudySettings,
     /// Whether to exclude levels on which particles change their cell.
     pub excludes_crossings: bool,
-    /// Distance (m) between neighbouring positions in single precision, if judged by displacement.
+    /// Distance (m) between neighbouring positions in single precision. Set if a solver in single
+    /// precision is judged by its displacement and the exact motion is known.
     pub position_spacing: Option<f64>,
     /// Conserved sums whose drift is reported for a case without an expectation.
     pub sums: Vec<Conserved>,
@@ -101,7 +102,8 @@ impl JudgePlan<'_> {
         judge(levels, &OrderHypothesis { formal_order, expected, axis })
     }
 
-    /// Returns the reason why `run --gate` requires nothing of a case, if it requires nothing.
+    /// Returns the reason why `run --gate` requires nothing of a case with these levels; `None` if
+    /// it requires something.
     pub(super) fn exemption(&self, levels: &[LevelOutcome]) -> Option<String> {
         match self.gating {
             Some(Gating::NotGated(reason)) => Some(reason.clone()),

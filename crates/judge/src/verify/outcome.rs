@@ -218,7 +218,8 @@ impl CaseOutcome {
         }
     }
 
-    /// Converts the outcome to that of a case that lacks capabilities; `verb` introduces them.
+    /// Converts the outcome to that of a case that does not apply to its solver. `lacks` are the
+    /// missing capabilities; `verb` introduces them in the reason.
     #[must_use]
     pub fn not_applicable(self, lacks: Vec<String>, verb: &str) -> Self {
         let verdict = CaseResult::NotApplicable.name().to_owned();

@@ -6,7 +6,8 @@ use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::violation::Violation;
 
-/// Maximum relative difference between automatic and finite differences (accurate to 1e-6).
+/// Maximum relative difference between automatic differentiation and finite differences, which are
+/// accurate to about 1e-6.
 pub(crate) const DIFFERENCE_TOLERANCE: f64 = 1e-4;
 
 const PLACES: usize = 32;

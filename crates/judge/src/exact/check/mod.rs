@@ -96,7 +96,8 @@ mod tests {
         }
     }
 
-    /// A linear law leaves only rounding errors; a condition without the law gives NaN.
+    /// A linear law leaves only rounding errors. A violated condition that does not involve the law
+    /// gives NaN.
     #[test]
     fn the_residual_is_that_of_the_law() {
         let wave = "sin(pi*X)*cos(pi*t)/50";

@@ -17,7 +17,8 @@ const ADDED: usize = 16;
 /// Minimum share of evenly distributed events at which a resolved quantity has half its maximum.
 const RESOLVED: f64 = 1.0 / 16.0;
 
-/// Maximum relative distance of an added event in the first round. Each round halves it.
+/// Maximum distance of an added event in the first round, relative to the size of the body and the
+/// duration of the run. Each round halves this distance.
 const REACH: f64 = 1.0 / 32.0;
 
 /// The largest magnitudes of a motion and of the terms in its equation.

@@ -196,7 +196,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Adds a node for a name with a value. A call of it is an error, which states its `role`.
+    /// Adds a node for a name with a value. A call of the name is an error that states its `role`.
     fn plain(
         &mut self,
         kind: NodeKind,

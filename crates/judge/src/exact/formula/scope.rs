@@ -61,7 +61,8 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares a name for an expression, which may contain other definitions.
+    /// Declares a name for an expression of constants, functions, other definitions and the free
+    /// variable.
     ///
     /// # Errors
     /// When `name` is invalid or taken.

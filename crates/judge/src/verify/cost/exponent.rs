@@ -3,8 +3,9 @@
 //! With error ~ h^p and work ~ h^-g the exponent is -g/p. Here g = D + 1 if cells and time steps
 //! are refined together, g = D for constant steps, and g = 1 if only time steps are refined.
 //!
-//! The line is fitted to `ln error` over `ln work`, because work has no noise, and inverted
-//! (inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed., section 3.2).
+//! The line is fitted to `ln error` over `ln work`, because work is counted and has no noise. The
+//! exponent and the ends of its interval are the inverses of those of the slope (inverse
+//! regression: Draper & Smith, Applied Regression Analysis, 3rd ed., section 3.2).
 
 use super::sample::{ConvergingPart, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};

@@ -52,7 +52,8 @@ impl JudgedSum {
         }
     }
 
-    /// Returns the difference from the exact sum at time `t` (s); NaN if the solver has none.
+    /// Returns the difference from the exact sum at time `t` (s); NaN if the solver does not report
+    /// the sum.
     pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
         let found = match self.computed {
             ComputedSum::OfTotals(value) => {

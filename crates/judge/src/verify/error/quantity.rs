@@ -109,7 +109,8 @@ impl Quantity {
         self.declaration().unit
     }
 
-    /// Whether the quantity is a primary unknown of a solver. Tables show errors of these only.
+    /// Whether the quantity is a primary unknown of a solver. Tables show the errors of primary
+    /// unknowns.
     pub fn is_primary(self) -> bool {
         self.declaration().is_primary
     }

@@ -3,7 +3,8 @@
 //! The expectations of a suite bound the order of its own methods on both sides. The order of an
 //! external solver has a lower bound only, because it may be superconvergent at its sample points.
 //! The 95 % interval must reach this bound and exclude orders lower by 0.5, the typical effect of a
-//! defect. It may extend below the bound, as it does with few levels for a correct solver.
+//! defect. The interval may extend below the bound, because with few levels it extends 0.1 or more
+//! to each side even for a correct solver.
 
 use crate::verify::{
     Axis, FEWEST_LEVELS, Interval, Judgement, Level, OrderHypothesis, Unmet, UnmetCode, Verdict,

@@ -13,7 +13,8 @@ use crate::verify::{FloorCause, OrderHypothesis, Verdict};
 /// Lower and upper bound. A value may equal either bound.
 pub type Bounds = (f64, f64);
 
-/// An expectation for a case; all fields that are set must hold, including expected failures.
+/// An expectation of a suite for a case. All fields that are set must hold. A case that is expected
+/// to fail but passes is an error too.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
     /// The expected verdict; `None` for a case with limits only.

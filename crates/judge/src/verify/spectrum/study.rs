@@ -12,7 +12,7 @@ pub struct WaveFigures {
 }
 
 impl WaveFigures {
-    /// Computes phase error and damping of a wave of `cells` cells at the Courant number.
+    /// Computes phase error and damping of a wave of `cells` cells at the Courant number `courant`.
     pub fn of(step: &Recurrence, cells: f64, courant: f64) -> Self {
         Self {
             phase_error: step.phase_error(cells, courant),

@@ -292,7 +292,7 @@ mod tests {
         assert_eq!(watched(&[3.0, 5.0, 1.0], false).verdict, Stability::Stable);
     }
 
-    /// A body of 2 kg and 4 kg m/s has an energy of 4 J, all of its centre of mass.
+    /// A body of 2 kg and 4 kg m/s has an energy of 4 J, all due to its common motion.
     #[test]
     fn a_common_motion_is_left_out_where_it_is_asked() {
         assert_relative_eq!(watched(&[5.0, 9.0], true).energy, 3.0, max_relative = 1e-14);

@@ -199,7 +199,8 @@ impl Diagnosis {
         let least = self.formal_order - OrderHypothesis::TOLERANCE;
         let is_near = self.finest.verdict == Verdict::Converging;
         let before = self.off(self.finest.order);
-        // An order close to theory before must have its whole interval in the expected range.
+        // An order that was already close to theory counts as restored only if the new interval is
+        // within the expected range.
         let restores = |run: &&ChangedRun| {
             let is_within = run.order.is_some_and(|order| order.low >= least);
             let is_nearer = self.off(run.order) <= CLOSER * before;

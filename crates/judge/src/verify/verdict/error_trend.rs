@@ -30,11 +30,11 @@ const TURNS: usize = 3;
 
 /// Returns the index of the level from which the error grows until the fine end, if it does.
 ///
-/// The first level is returned if the line through all points has an order significantly below
-/// -0.2. Otherwise the divergent part begins at the smallest error, has at least three levels, and
-/// grows at least twofold. One of three conditions must also hold: the last error is at least twice
-/// the first of the series, the error rises over the last two pairs, or the line through the
-/// divergent part has an order significantly below -0.2.
+/// The first level is returned if the line through all points has an order below -0.2, with a
+/// confidence interval that excludes zero. Otherwise the divergent part begins at the smallest
+/// error, has at least three levels, and grows at least twofold. It must also meet one of three
+/// conditions: the last error is at least twice the first error of the series, the error rises over
+/// the last two pairs, or the line through the part has an order below -0.2, as above.
 pub(crate) fn divergence(points: &[LogPoint]) -> Option<usize> {
     if points.len() < FEWEST_LEVELS {
         return None;

@@ -21,7 +21,8 @@ use crate::verify::order::window::{FEWEST_LEVELS, Window};
 use crate::verify::{OrderHypothesis, Verdict};
 use std::ops::Range;
 
-/// Maximum half-width of the interval of a settled order: half of 0.5, by which methods differ.
+/// Maximum half-width of the interval of a settled order: half of 0.5, the typical difference
+/// between the orders of two methods.
 pub(crate) const SETTLED: f64 = 0.25;
 
 /// Maximum half-width relative to the order above order 2, where it equals [`SETTLED`].

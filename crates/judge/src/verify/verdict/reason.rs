@@ -22,7 +22,8 @@ pub(crate) enum Reason {
     Drift {
         change: f64,
     },
-    /// Compares the order with the expected range; `overlaps` refers to the order's interval.
+    /// The order is compared with the expected range. `overlaps` is true if the order is outside
+    /// the range but its interval overlaps the range.
     Against {
         verdict: Verdict,
         range: (f64, f64),

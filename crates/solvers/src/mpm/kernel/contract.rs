@@ -18,8 +18,8 @@ use std::sync::atomic::Ordering::Relaxed;
 /// Passes of P2G and G2P for one basis.
 pub trait Kernel<const D: usize>: Send + Sync {
     /// Calls `visit` for every node of particle `p`. If a node occurs in several calls, the weight
-    /// and gradient of the node are sums over these calls. For passes that are not frequent enough
-    /// to be compiled for each basis.
+    /// and gradient of the node are sums over these calls. Frequent passes do not use this method,
+    /// but loops that are compiled for each basis.
     fn visit(
         &self,
         grid: &Grid<D>,

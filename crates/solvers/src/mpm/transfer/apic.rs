@@ -26,7 +26,8 @@ pub type Apic<const D: usize> = AffineTransfer<D, false>;
 /// Moving least squares MPM (MLS-MPM).
 pub type Mls<const D: usize> = AffineTransfer<D, true>;
 
-/// Transfer of affine velocity fields, with gradients of the basis or of the `FIT`.
+/// Transfer of affine velocity fields. The gradients are those of the basis functions or, if `FIT`,
+/// those of the least-squares fit.
 #[derive(Debug, Clone, Default)]
 pub struct AffineTransfer<const D: usize, const FIT: bool> {
     /// First moments B_p of the velocity fields (m^2/s).
