@@ -1,5 +1,27 @@
 //! The judge: whether an error decreases with the formal order, and how certain this is.
 //!
+//! | module | content |
+//! |---|---|
+//! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
+//! | [`conservation`](ConservationError) | drift of conserved sums without external forces |
+//! | [`level`](Level), [`hypothesis`](OrderHypothesis) | errors, pairwise orders, tested order |
+//! | [`fit`](Interval), [`t_quantile`](two_sided_95) | order by regression, and its interval |
+//! | `window` | the asymptotic levels |
+//! | `error_trend` | floor, divergence, oscillation |
+//! | [`judge`](judge()) | the decision sequence, and the verdict |
+//! | `verdict/reason`, [`verdict/name`](Verdict) | sentences and names of verdicts in reports |
+//! | [`case`](judge_case) | judgement of a case: all results that a report shows |
+//! | [`judge_plan`](JudgePlan), [`rerun`](Reruns) | inputs of a judgement, and repeated levels |
+//! | [`floor`](Floor) | the cause of an error floor |
+//! | [`richardson`](Richardson) | order and limit from three values |
+//! | [`limit_estimate`](LimitEstimate) | order and limit of a series, with intervals |
+//! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
+//! | [`spectrum`](SpectrumStudy) | measured and predicted phase speed and damping of a wave |
+//! | [`stability`](StabilityStudy) | growth in runs, amplification matrix, limits by bisection |
+//! | [`gradient`](GradientStudy) | derivatives that a solver reports |
+//! | [`expectation`](Expectation), [`limits`](Limits) | expectations of suites |
+//! | [`figure`](CaseFigure) | registry of the measured values that suites can bound |
+//!
 //! Two rules apply everywhere. Comparisons are written so that NaN fails: the code tests the
 //! required condition (`error <= tolerance`), never its opposite. The shape of a series is
 //! recognised by ratios, so units of error and spacing do not change a verdict.
