@@ -49,10 +49,19 @@ fn floor_finding(
     Some(if severity == Severity::Warning { found.with_help(help) } else { found })
 }
 
-/// Returns the model error (m) of `case`, its origin, and advice for avoiding the error. The error
-/// of a linearised solution is computed from the residual. That of a small-strain solution is
-/// estimated, because the law in rate form that MPM uses differs from the law of the solution.
-fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<(f64, String, &'static str)> {
+/// Error of a solution that does not solve the problem of the solver exactly.
+struct ModelError {
+    /// Size of the error (m).
+    size: f64,
+    origin: String,
+    /// Advice to use a solution without this error.
+    remedy: &'static str,
+}
+
+/// Determines the model error of `case`, if there is one. The error of a linearised solution is
+/// computed from the residual. The error of a small-strain solution is estimated, because the law
+/// in rate form that MPM uses differs from the law of the solution.
+fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let problem = preflight.plan.exact.as_ref()?;
     let motion = preflight.extremes.as_ref()?;
     let norm = preflight.plan.norm;
@@ -64,7 +73,7 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<(f64, String, &
              its equations:"
         );
         let remedy = "or state an exact solution of the law itself";
-        return Some((error, origin, remedy));
+        return Some(ModelError { size: error, origin, remedy });
     }
     let strain = motion.gradient;
     let is_small = !problem.equation.is_finite() && strain > 0.0;
@@ -84,7 +93,7 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<(f64, String, &
          {strain:.1e}"
     );
     let remedy = "or state a finite-strain solution";
-    Some((neglected * motion.largest_displacement().min(early), origin, remedy))
+    Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
 }
 
 /// Reports the model error of an exact solution that is linearised or assumes small strains.
@@ -94,14 +103,25 @@ pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
         return Vec::new();
     }
     let mut exact = preflight.of_an_order().filter(|case| case.against == Against::Exact);
-    let error = exact.find_map(|case| model_error(preflight, case));
-    let Some((size, origin, remedy)) = error else { return Vec::new() };
+    let Some(error) = exact.find_map(|case| model_error(preflight, case)) else {
+        return Vec::new();
+    };
+    let ModelError { size, origin, remedy } = error;
     let help = format!("a tenth of the amplitude reduces this error to a hundredth; {remedy}");
     floor_finding(preflight, size, &origin, &help).into_iter().collect()
 }
 
 /// Minimum number of levels whose error must be larger than the rounding bound.
 const LEVELS: usize = 4;
+
+/// A level with its predicted errors (m).
+struct LevelPrediction {
+    cells: u64,
+    /// Error due to cells, estimated as the interpolation error of linear functions.
+    discretisation: f64,
+    /// Bound on the rounding errors of positions.
+    rounding: f64,
+}
 
 /// Reports the first level whose predicted error is below the rounding bound: a warning if fewer
 /// than [`LEVELS`] levels are above the bound, otherwise a note.
@@ -115,26 +135,29 @@ pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let Some(spacing) = single_precision_spacing(motion.largest_coordinate()) else {
         return Vec::new();
     };
-    // Cells, discretisation error (m), and bound on the rounding errors of positions (m).
     let prediction = |level: &LevelPlan| {
-        let rounding = rounding_bound(case.clock(plan, level.dt)?.steps, spacing, plan.norm);
-        Some((level.cells, of_cells(preflight, level.h), rounding))
+        let steps = case.clock(plan, level.dt)?.steps;
+        Some(LevelPrediction {
+            cells: level.cells,
+            discretisation: of_cells(preflight, level.h),
+            rounding: rounding_bound(steps, spacing, plan.norm),
+        })
     };
-    let levels: Vec<(u64, f64, f64)> = preflight.levels().iter().filter_map(prediction).collect();
-    let is_above = |(_, error, rounding): &&(u64, f64, f64)| error > rounding;
+    let levels: Vec<LevelPrediction> = preflight.levels().iter().filter_map(prediction).collect();
+    let is_above = |level: &&LevelPrediction| level.discretisation > level.rounding;
     let Some(first) = levels.iter().find(|level| !is_above(level)) else { return Vec::new() };
     let above = levels.iter().filter(is_above).count();
     let message = format!(
         "the solver computes in single precision: from {} cells on, the discretisation error, \
          about {:.1e} m, is below the rounding bound of {:.1e} m, so these levels do not count",
-        first.0, first.1, first.2
+        first.cells, first.discretisation, first.rounding
     );
     let severity = if above < LEVELS { Severity::Warning } else { Severity::Note };
     let found = preflight.finding(severity, &preflight.motion(), &message);
-    let Some((_, error, rounding)) = levels.get(LEVELS - 1).filter(|_| above < LEVELS) else {
+    let Some(fourth) = levels.get(LEVELS - 1).filter(|_| above < LEVELS) else {
         return vec![found];
     };
-    let amplitude = two_digits(rounding / error);
+    let amplitude = two_digits(fourth.rounding / fourth.discretisation);
     let help = format!(
         "an amplitude {amplitude} times as large leaves {LEVELS} levels above the bound, as long \
          as particles stay in their cells"

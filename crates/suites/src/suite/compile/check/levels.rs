@@ -130,16 +130,23 @@ fn references(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     Ok(())
 }
 
+/// A stated time step (s), and the actual steps computed from it.
+#[derive(Clone, Copy)]
+struct StatedStep {
+    dt: f64,
+    clock: Clock,
+}
+
 /// Checks the time steps of all levels and of the reference. Refined steps must decrease. Steps
 /// that are compared with a computed reference must end at its instants, up to [`STEP_TOLERANCE`].
 fn refuse_unusable_steps(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { evaluator, plan, levels, .. } = study;
     for case in &plan.cases {
-        let mut coarser: Option<(f64, Clock)> = None;
+        let mut coarser: Option<StatedStep> = None;
         for (level, place) in plan.refine.levels.iter().zip(levels) {
             let clock = case.clock(plan, level.dt);
             let clock = usable(&place.dt, clock, level.cells, level.dt)?;
-            let step = (level.dt, clock);
+            let step = StatedStep { dt: level.dt, clock };
             if plan.refine.axis == Axis::Time || plan.refine.steps.len() > 1 {
                 if let Some(coarser) = coarser {
                     finer(&place.dt, coarser, step)?;
@@ -154,7 +161,7 @@ fn refuse_unusable_steps(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
             let path = evaluator.top("reference.same_method.cells");
             let clock = usable(&path, case.clock(plan, fine.dt), fine.cells, fine.dt)?;
             if plan.refine.rule.is_none() {
-                as_wanted(&path, case, (fine.dt, clock))?;
+                as_wanted(&path, case, StatedStep { dt: fine.dt, clock })?;
             }
         }
         if let Some(fine) = &plan.reference {
@@ -181,31 +188,23 @@ fn usable(
 }
 
 /// Refuses a level whose stated or rounded time step is not smaller than on the previous level.
-fn finer(
-    path: &SuitePath<'_>,
-    (wide, coarse): (f64, Clock),
-    (narrow, fine): (f64, Clock),
-) -> Result<(), Diagnostic> {
-    let is_narrower = narrow < wide;
-    let (wide, narrow) = (shown(wide), shown(narrow));
-    if !is_narrower {
+fn finer(path: &SuitePath<'_>, coarse: StatedStep, fine: StatedStep) -> Result<(), Diagnostic> {
+    let (wide, narrow) = (shown(coarse.dt), shown(fine.dt));
+    if !(fine.dt < coarse.dt) {
         let message = format!("a level with dt = {narrow} after one with {wide}");
         return Err(path.diagnostic(&message).with_label(COARSE_TO_FINE));
     }
-    if fine.steps > coarse.steps {
+    if fine.clock.steps > coarse.clock.steps {
         return Ok(());
     }
-    let message = format!("dt = {narrow} and {wide} both become {} s", shown(fine.dt()));
-    let label = format!("both runs take {} steps", fine.steps);
+    let message = format!("dt = {narrow} and {wide} both become {} s", shown(fine.clock.dt()));
+    let label = format!("both runs take {} steps", fine.clock.steps);
     Err(path.diagnostic(&message).with_label(&label))
 }
 
 /// Refuses instants that change the time step of `case` by more than [`STEP_TOLERANCE`].
-fn as_wanted(
-    path: &SuitePath<'_>,
-    case: &Case,
-    (wanted, clock): (f64, Clock),
-) -> Result<(), Diagnostic> {
+fn as_wanted(path: &SuitePath<'_>, case: &Case, step: StatedStep) -> Result<(), Diagnostic> {
+    let StatedStep { dt: wanted, clock } = step;
     let is_near = |clock: &Clock| (clock.dt() / wanted - 1.0).abs() <= STEP_TOLERANCE;
     if is_near(&clock) {
         return Ok(());
