@@ -58,7 +58,7 @@ pub use material::{
 pub use multibody::Bodies;
 pub use quasi_static::{QuasiStatic, QuasiStaticSetup};
 pub use scheme::{SchemeName, Stage};
-pub use step::combination::combine;
+pub use step::combination::{CombinationError, combine};
 pub use step::setup::Setup;
 pub use step::solver::Solver;
 pub use step::volume_average::VolumeName;

@@ -117,7 +117,9 @@ fn apic_with_musl_loses_angular_momentum() {
 
 #[test]
 fn invalid_combinations_are_refused_by_name() {
-    let refused = |basis, transfer, mass, frame| combine(basis, transfer, mass, frame).unwrap_err();
+    let refused = |basis, transfer, mass, frame| {
+        combine(basis, transfer, mass, frame).unwrap_err().to_string()
+    };
     let (lumped, updated) = (MassName::Lumped, FrameName::Updated);
     let message = refused(BasisName::Linear, TransferName::Mls, lumped, updated);
     assert!(message.contains("`mls`") && message.contains("`linear`"), "{message}");

@@ -200,7 +200,7 @@ fn curve(
     };
     combine(basis, transfer, mass, frame).map_err(|reason| {
         let help = "list compatible settings in separate entries of `methods`";
-        path.diagnostic(&reason).with_help(help)
+        path.diagnostic(&reason.to_string()).with_help(help)
     })?;
     if volume == VolumeName::Averaged {
         let property = "the volume ratio of each particle: `volume: particle`";

@@ -6,8 +6,8 @@ pub(crate) mod refine;
 
 use crate::mpm::input::MpmMethod;
 use crate::mpm::{
-    FrameName, MassName, combine, combine_across, combine_basis, combine_bodies, combine_precision,
-    combine_volume,
+    CombinationError, FrameName, MassName, combine, combine_across, combine_basis, combine_bodies,
+    combine_precision, combine_volume,
 };
 use crate::suite::compile::study::{LevelPaths, StudyDraft};
 use crate::suite::evaluator::{Evaluator, SuitePath, shown};
@@ -200,9 +200,9 @@ fn combined(
     named: &NamedMethod,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    let refuse = |reason: String| {
+    let refuse = |reason: CombinationError| {
         let help = "list compatible settings in separate entries of `methods`";
-        named.path(evaluator).diagnostic(&reason).with_help(help)
+        named.path(evaluator).diagnostic(&reason.to_string()).with_help(help)
     };
     let method = named.method;
     if let Method::QuasiStatic { basis, .. } = method {

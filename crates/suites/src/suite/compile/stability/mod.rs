@@ -156,7 +156,7 @@ fn time_stepping_methods(
             let known = combine(basis, transfer, mass, frame).and_then(across);
             known.and_then(averaged).map_err(|reason| {
                 let help = "list compatible settings in separate entries of `methods`";
-                path.diagnostic(&reason).with_help(help)
+                path.diagnostic(&reason.to_string()).with_help(help)
             })?;
         }
     }
