@@ -28,9 +28,10 @@ pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema};
 
 // For other modules and packages of this project, without a promise of stability.
 #[doc(hidden)]
-pub use self::capabilities::{SMALL_STRAIN, everything};
-#[doc(hidden)]
-pub use self::fields::{FieldError, HandedNumber, HandedValues, PlacedBodyForce};
+pub use self::{
+    capabilities::{SMALL_STRAIN, everything},
+    fields::{FieldError, HandedNumber, HandedValues, PlacedBodyForce},
+};
 
 /// Creates an external solver for any level of a suite.
 pub trait SolverFactory: Sync {

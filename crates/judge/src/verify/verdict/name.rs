@@ -29,6 +29,13 @@ named! {
     }
 }
 
+impl Verdict {
+    /// Returns the name as suites write it, in snake case (`too_good`, `pre_asymptotic`).
+    pub fn key(self) -> String {
+        self.name().replace([' ', '-'], "_")
+    }
+}
+
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
@@ -48,7 +55,7 @@ impl FromStr for Verdict {
 
     /// Parses the name as printed or in snake case (`too_good`, `pre_asymptotic`).
     fn from_str(word: &str) -> Result<Self, UnknownVerdict> {
-        let is_name = |verdict: &Self| word == verdict.name() || word == snake_case(verdict.name());
+        let is_name = |verdict: &Self| word == verdict.name() || word == verdict.key();
         let found = Self::ALL.iter().copied().find(is_name);
         found.ok_or_else(|| UnknownVerdict { word: word.into() })
     }
@@ -56,10 +63,6 @@ impl FromStr for Verdict {
 
 fn names() -> Vec<&'static str> {
     Verdict::ALL.iter().map(|verdict| verdict.name()).collect()
-}
-
-fn snake_case(name: &str) -> String {
-    name.replace([' ', '-'], "_")
 }
 
 #[cfg(test)]
@@ -70,7 +73,7 @@ mod tests {
     fn every_name_reads_back_in_both_spellings() {
         for &verdict in Verdict::ALL {
             assert_eq!(verdict.to_string().parse(), Ok(verdict));
-            assert_eq!(snake_case(verdict.name()).parse(), Ok(verdict));
+            assert_eq!(verdict.key().parse(), Ok(verdict));
         }
     }
 

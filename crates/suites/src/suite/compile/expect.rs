@@ -135,8 +135,7 @@ fn expectation(
 
 fn verdict(path: &SuitePath<'_>, word: &str) -> Result<Verdict, Diagnostic> {
     Verdict::from_str(word).map_err(|_| {
-        let name = |verdict: &Verdict| verdict.name().replace([' ', '-'], "_");
-        let known: Vec<String> = Verdict::ALL.iter().map(name).collect();
+        let known: Vec<String> = Verdict::ALL.iter().map(|verdict| verdict.key()).collect();
         let known: Vec<&str> = known.iter().map(String::as_str).collect();
         let diagnostic = path.diagnostic(&format!("`{word}` is not a verdict"));
         diagnostic.with_help(&suggestion("verdicts", word, &known))

@@ -168,7 +168,7 @@ fn cases(
             return Err(needs(&path, "methods of MPM in time").with_help(help));
         }
     }
-    let named = methods(evaluator, &spec.methods, &plan.scene.material, [MOST, 1])?;
+    let named = methods(evaluator, &spec.methods, &plan.scene.material, MOST, 1)?;
     let curves = named.iter().map(|named| curve(&named.path(evaluator), named.method, plan));
     let curves = curves.collect::<Result<Vec<_>, Diagnostic>>()?;
     let names: Vec<String> = named.iter().map(NamedMethod::name).collect();

@@ -74,8 +74,7 @@ pub(crate) struct AnyMethodSpec {
 /// Returns the JSON schema of the verdict names in suites.
 #[cfg(feature = "schemas")]
 fn verdicts(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-    let name = |verdict: &Verdict| verdict.name().replace([' ', '-'], "_");
-    let names: Vec<String> = Verdict::ALL.iter().map(name).collect();
+    let names: Vec<String> = Verdict::ALL.iter().map(|verdict| verdict.key()).collect();
     schemars::json_schema!({"type": "string", "enum": names})
 }
 

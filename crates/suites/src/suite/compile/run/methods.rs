@@ -22,12 +22,14 @@ pub(crate) struct NamedMethod {
 }
 
 /// Compiles the entries of `methods`, one method for each combination of list values. `material`
-/// determines the default law of FEM cases. There may be at most `most` cases.
+/// determines the default law of FEM cases. There may be at most `most` cases, `of_each_method` for
+/// each method.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     specs: &[MethodSpec],
     material: &MaterialPlan,
-    [most, of_each_method]: [usize; 2],
+    most: usize,
+    of_each_method: usize,
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
     // Materials without an FEM law are refused later.
     let own_law = law_of_bar(material).unwrap_or_default();

@@ -152,8 +152,8 @@ pub(crate) fn cases(
     for (i, method) in spec.methods.iter().enumerate() {
         possible(&evaluator.top("methods").then(i), method, plan)?;
     }
-    let limit = [MOST_CASES, until.len() * truths.len()];
-    let found = methods(evaluator, &spec.methods, &plan.scene.material, limit)?;
+    let (material, of_each) = (&plan.scene.material, until.len() * truths.len());
+    let found = methods(evaluator, &spec.methods, material, MOST_CASES, of_each)?;
     found.iter().try_for_each(|method| combined(evaluator, method, plan))?;
     Ok(found.iter().flat_map(|method| runs(method, &truths, until)).collect())
 }

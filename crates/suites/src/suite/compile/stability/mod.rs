@@ -136,7 +136,7 @@ fn time_stepping_methods(
             return Err(path.then("mpm").then("scheme").diagnostic(message));
         }
     }
-    let methods = methods(evaluator, specs, &scene.material, [MOST, 1])?;
+    let methods = methods(evaluator, specs, &scene.material, MOST, 1)?;
     let plane = scene.plane;
     for named in &methods {
         let path = named.path(evaluator);
