@@ -2,12 +2,13 @@
 
 use super::bar;
 use mpm_verify::embedded;
-use mpm_verify::external::{LevelProblem, SolverFactory};
-use mpm_verify::study::{Runner, level_problem};
+use mpm_verify::external::{Capabilities, LevelProblem, ProblemNeeds, SolverFactory};
+use mpm_verify::study::{Runner, lacking, level_problem, under};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, ExternalMethod, GateTerms, Suite};
 use mpm_verify::verify::CaseOutcome;
+use rstest::rstest;
 
 /// Second-order finite differences with one unknown at each particle: `u_tt = c^2 u_XX`.
 struct Differences {
@@ -155,4 +156,40 @@ fn a_placed_body_force_is_the_body_force() {
             assert_eq!(found, each.collect::<Vec<_>>(), "{name} at {t} s");
         }
     }
+}
+
+/// A solver with one law, which is not asked to run.
+struct OfLaw(&'static str);
+
+impl SolverFactory for OfLaw {
+    fn name(&self) -> &'static str {
+        "of-law"
+    }
+
+    fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
+        Capabilities::of(&[2], &[self.0], &["free"], &[]).lacking(needs)
+    }
+
+    fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+        Err("nothing runs here".into())
+    }
+}
+
+/// The suite has the law `linear_elastic`, small strains and `any_law`.
+#[rstest]
+#[case::isotropic_elastic("hencky", true)]
+#[case::plastic("j2", false)]
+fn only_isotropic_elastic_laws_replace_a_law_at_small_strains(
+    #[case] law: &'static str,
+    #[case] replaces: bool,
+) {
+    let source = embedded::source("lame-square").expect("a suite").expect("a text");
+    let suite = Suite::load(&source).expect("a sound suite");
+    let solver = OfLaw(law);
+    let judged = under(&suite, &solver, false).expect("a suite for solvers");
+    assert_eq!(lacking(&judged, &solver).is_empty(), replaces);
+    let plan = judged.convergence().expect("a convergence study");
+    let own = suite.convergence().expect("a convergence study").scene.material.parameters();
+    assert_eq!(plan.scene.material.parameters(), own);
+    assert_eq!(plan.scene.material.name(), if replaces { law } else { "linear_elastic" });
 }

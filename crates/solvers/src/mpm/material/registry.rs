@@ -124,6 +124,12 @@ macro_rules! materials {
                 all.find(|(key, _)| *key == wanted).map(|(_, value)| value)
             }
 
+            /// Whether the law has Young's modulus and Poisson's ratio as its only parameters. At
+            /// small strains all such laws are Hooke's law.
+            pub fn is_isotropic_elastic(&self) -> bool {
+                self.keyed_parameters().iter().map(|(key, _)| *key).eq(["young", "poisson"])
+            }
+
             /// Returns every parameter with its value, in registration order.
             pub fn parameters(&self) -> Vec<(MaterialParameter, f64)> {
                 match self {

@@ -7,7 +7,7 @@ use crate::mpm::{MaterialParameter, MaterialPlan, Range};
 use crate::study::kind::study;
 use crate::study::setup::dispatch::subject;
 use crate::subject::{PlaneState, Subject, SubjectError};
-use crate::suite::model::method::{ExternalMethod, GateTerms};
+use crate::suite::model::method::{ExternalMethod, GateTerms, LawChoice};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, Suite};
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
@@ -76,8 +76,8 @@ pub fn under(suite: &Suite, solver: &dyn SolverFactory, gate: bool) -> Option<Su
 }
 
 /// Replaces the methods of the suite by `solver`. If `terms` are given, the cases get the
-/// requirements of `run --gate`, as modified by these terms of the solver's author. If no body
-/// deforms, the law may be replaced by one that the solver supports.
+/// requirements of `run --gate`, as modified by these terms of the solver's author. If the suite
+/// states `any_law`, the law may be replaced by one that the solver supports.
 pub fn under_on(
     suite: &Suite,
     solver: &dyn SolverFactory,
@@ -97,17 +97,22 @@ pub fn under_on(
 /// plan or no law, or if the results depend on the law.
 fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<ConvergencePlan> {
     let needs = needs(plan);
-    let lacking = if plan.any_method.any_law { solver.lacks(&needs).len() } else { 0 };
-    let own = plan.scene.material;
-    let mut laws = MaterialPlan::every(|parameter| replaced(&own, parameter)).into_iter();
-    let law = laws.find(|law| {
-        let mut needs = needs.clone();
-        needs.laws = vec![law.name()];
-        solver.lacks(&needs).len() < lacking
+    let lacking = solver.lacks(&needs).len();
+    let laws = |own: &MaterialPlan| MaterialPlan::every(|parameter| replaced(own, parameter));
+    let may_replace = |law: &MaterialPlan| match plan.any_method.law {
+        LawChoice::Stated => false,
+        LawChoice::SameModuli => law.is_isotropic_elastic(),
+        LawChoice::Any => true,
+    };
+    let number = laws(&plan.scene.material).iter().position(|law| {
+        let needs = ProblemNeeds { laws: vec![law.name()], ..needs.clone() };
+        may_replace(law) && solver.lacks(&needs).len() < lacking
     })?;
     let mut plan = plan.clone();
-    plan.scene.material = law;
-    plan.scene.bodies.iter_mut().for_each(|body| body.material = law);
+    plan.scene.material = laws(&plan.scene.material)[number];
+    for body in &mut plan.scene.bodies {
+        body.material = laws(&body.material)[number];
+    }
     Some(plan)
 }
 

@@ -6,8 +6,8 @@ use crate::suite::compile::check::sums::refuse_law_without_energy;
 use crate::suite::compile::study::CompiledStudy;
 use crate::suite::evaluator::{Evaluator, SuitePath, shown, suggestion};
 use crate::suite::grammar::{CrossingsName, DriftSpec, ExpectSpec};
-use crate::suite::model::ConvergencePlan;
-use crate::suite::model::method::{AnyMethod, Method};
+use crate::suite::model::method::{AnyMethod, LawChoice, Method};
+use crate::suite::model::{ConvergencePlan, Scene};
 use crate::suite::pattern;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::{
@@ -262,11 +262,15 @@ fn check_drift(path: &SuitePath<'_>, limits: &Limits, method: Method) -> Result<
     path.then(key).refuse_key(message, "restrict this expectation to MPM cases")
 }
 
-/// Number of points along each axis, and of time intervals, in `is_translation`.
+/// Number of points along each axis, and of time intervals, in `largest_gradient`.
 const PLACES: usize = 5;
 
 /// Displacement gradients up to this value count as rounding errors.
 const UNDEFORMED: f64 = 1e-14;
+
+/// Maximum displacement gradient at which another isotropic elastic law may replace the law of a
+/// suite. Stresses of laws with equal moduli differ by a fraction of about this size.
+const SMALL: f64 = 1e-3;
 
 pub(crate) fn any_method(study: &CompiledStudy<'_>) -> Result<AnyMethod, Diagnostic> {
     let Some(spec) = &study.spec.any_method else { return Ok(AnyMethod::default()) };
@@ -299,15 +303,33 @@ pub(crate) fn any_method(study: &CompiledStudy<'_>) -> Result<AnyMethod, Diagnos
         let diagnostic = path.then("gated").diagnostic_at_key(message);
         return Err(diagnostic.with_help("remove `gated`, or `order` and `error_below`"));
     }
-    if spec.any_law && !study.plan.exact.as_ref().is_some_and(is_translation) {
-        let message = "the solution depends on the law, because it is not a translation";
+    let law = if spec.any_law { replaceable_law(study.plan) } else { LawChoice::Stated };
+    if spec.any_law && law == LawChoice::Stated {
+        let message = "the solution depends on the law, because it is neither a translation nor a \
+                       small strain of isotropic elastic bodies";
         return path.then("any_law").refuse(message, "remove `any_law`");
     }
-    Ok(AnyMethod { order, error_below, any_law: spec.any_law, gated, because })
+    Ok(AnyMethod { order, error_below, law, gated, because })
 }
 
-/// Whether the motion only translates a stress-free body.
-fn is_translation(problem: &Problem) -> bool {
+/// Returns the laws that give the exact solution of `plan`.
+fn replaceable_law(plan: &ConvergencePlan) -> LawChoice {
+    let Some(problem) = plan.exact.as_ref().filter(|problem| problem.initial_stress.is_none())
+    else {
+        return LawChoice::Stated;
+    };
+    let is_elastic = |body: &Scene| body.material.is_isotropic_elastic();
+    if largest_gradient(problem) <= UNDEFORMED {
+        LawChoice::Any
+    } else if largest_gradient(problem) <= SMALL && plan.scene.each().iter().all(is_elastic) {
+        LawChoice::SameModuli
+    } else {
+        LawChoice::Stated
+    }
+}
+
+/// Returns the largest entry of the displacement gradient at a lattice of positions and times.
+fn largest_gradient(problem: &Problem) -> f64 {
     let d = problem.dimension();
     let along = |axis: usize, k: usize| {
         let length = problem.to[axis] - problem.from[axis];
@@ -316,11 +338,11 @@ fn is_translation(problem: &Problem) -> bool {
     let place = |point: usize| -> Vec<f64> {
         (0..d).map(|axis| along(axis, point / PLACES.pow(axis as u32) % PLACES)).collect()
     };
-    let undeformed = |label: &[f64], t: f64| {
-        let gradient = problem.motion.derivatives(label, t).grad;
-        gradient.iter().flatten().all(|entry| entry.abs() <= UNDEFORMED)
+    let entries = |(label, t): (Vec<f64>, f64)| {
+        problem.motion.derivatives(&label, t).grad.into_iter().flatten().map(f64::abs)
     };
-    let times = || (0..=PLACES).map(|k| problem.until * k as f64 / PLACES as f64);
-    problem.initial_stress.is_none()
-        && (0..PLACES.pow(d as u32)).map(place).all(|label| times().all(|t| undeformed(&label, t)))
+    let times = (0..=PLACES).map(|k| problem.until * k as f64 / PLACES as f64);
+    let events = times.flat_map(|t| (0..PLACES.pow(d as u32)).map(move |point| (point, t)));
+    let gradients = events.flat_map(|(point, t)| entries((place(point), t)));
+    gradients.fold(0.0, |largest, entry| if entry <= largest { largest } else { entry })
 }

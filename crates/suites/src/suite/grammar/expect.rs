@@ -62,7 +62,8 @@ pub(crate) struct AnyMethodSpec {
     pub(crate) order: Option<NumberText>,
     /// Errors at or below this bound are accepted, even if the order is too low.
     pub(crate) error_below: Option<NumberText>,
-    /// Whether a solver may use any of its laws, because the body does not deform.
+    /// Whether a solver may use another law, because the body does not deform, or because strains
+    /// are small and the law is isotropic and elastic.
     #[serde(default)]
     pub(crate) any_law: bool,
     /// Whether `run --gate` requires anything of external solvers; default: true.

@@ -168,19 +168,30 @@ pub struct AnyMethod {
     pub order: Option<f64>,
     /// Errors at or below this bound are accepted for any observed order.
     pub error_below: Option<f64>,
-    /// Whether no body deforms in the problem; a solver may then use any law.
-    pub any_law: bool,
+    /// Laws that a solver may use.
+    pub law: LawChoice,
     /// Whether `run --gate` checks external solvers on this suite.
     pub gated: bool,
     /// The reason; empty if the key is absent.
     pub because: String,
 }
 
+/// Laws with which a solver may run a suite.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LawChoice {
+    /// The law of the scene.
+    Stated,
+    /// Any isotropic elastic law with the same moduli, because strains are small.
+    SameModuli,
+    /// Any law, because no body deforms.
+    Any,
+}
+
 /// Without the key `any_method`, `run --gate` requires the solver's order and the scene's law.
 impl Default for AnyMethod {
     fn default() -> Self {
         let (order, error_below, because) = (None, None, String::new());
-        Self { order, error_below, any_law: false, gated: true, because }
+        Self { order, error_below, law: LawChoice::Stated, gated: true, because }
     }
 }
 
