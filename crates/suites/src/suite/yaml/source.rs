@@ -27,9 +27,8 @@ impl Source {
     /// If the file does not exist, is a folder, is too large or not UTF-8, or if
     /// [`Source::from_text`] refuses the text.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostic> {
-        let name = path.as_ref().display().to_string();
-        let bytes = bytes_of(path.as_ref(), &name)?;
-        Self::from_bytes(&name, bytes)
+        let path = path.as_ref();
+        Self::from_text(path.display().to_string(), read_text(path, MAX_BYTES, "suite file")?)
     }
 
     /// Reads the output of a program, up to the maximum file size of a suite.
@@ -38,14 +37,7 @@ impl Source {
     /// If reading fails, or the output is too large, not UTF-8, or refused by
     /// [`Source::from_text`].
     pub fn from_reader(name: &str, reader: impl Read) -> Result<Self, Diagnostic> {
-        Self::from_bytes(name, limited(name, reader)?)
-    }
-
-    fn from_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, Diagnostic> {
-        match String::from_utf8(bytes) {
-            Ok(text) => Self::from_text(name, text),
-            Err(error) => Err(not_utf8(name, error.as_bytes(), error.utf8_error().valid_up_to())),
-        }
+        Self::from_text(name, limited(name, reader, MAX_BYTES)?)
     }
 
     /// Checks a text in memory, such as a suite embedded in the program.
@@ -57,7 +49,7 @@ impl Source {
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Self, Diagnostic> {
         let (name, mut text) = (name.into(), text.into());
         if text.len() > MAX_BYTES {
-            return Err(too_large(&name, Some(text.len() as u64)));
+            return Err(too_large(&name, Some(text.len() as u64), MAX_BYTES));
         }
         // A byte order mark has no meaning in UTF-8, and would shift the columns of the first line.
         if text.starts_with('\u{feff}') {
@@ -156,31 +148,38 @@ impl Source {
     }
 }
 
-fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
+/// Reads a file of UTF-8 text with at most `most` bytes. `kind` is the expected kind of file, a
+/// noun phrase for messages.
+pub(crate) fn read_text(path: &Path, most: usize, kind: &str) -> Result<String, Diagnostic> {
+    let name = &path.display().to_string();
     let unreadable = |error: &io::Error| Diagnostic::about(name, &unreadable(error));
     let metadata = fs::metadata(path).map_err(|error| unreadable(&error))?;
     if metadata.is_dir() {
-        let diagnostic = Diagnostic::about(name, "this is a folder, not a suite file");
+        let diagnostic = Diagnostic::about(name, &format!("this is a folder, not a {kind}"));
         return Err(diagnostic.with_help("name a file in it"));
     }
     if is_named_pipe(path, &metadata) {
-        let diagnostic = Diagnostic::about(name, "this is a named pipe, not a suite file");
+        let diagnostic = Diagnostic::about(name, &format!("this is a named pipe, not a {kind}"));
         return Err(
             diagnostic.with_help("a pipe of the shell is read as `/dev/stdin` or `<(COMMAND)`")
         );
     }
-    if metadata.len() > MAX_BYTES as u64 {
-        return Err(too_large(name, Some(metadata.len())));
+    if metadata.len() > most as u64 {
+        return Err(too_large(name, Some(metadata.len()), most));
     }
-    limited(name, File::open(path).map_err(|error| unreadable(&error))?)
+    limited(name, File::open(path).map_err(|error| unreadable(&error))?, most)
 }
 
 /// Checks the maximum size while reading, because the file size may be unknown or grow.
-fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
+fn limited(name: &str, reader: impl Read, most: usize) -> Result<String, Diagnostic> {
     let mut bytes = Vec::new();
-    let read = reader.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
+    let read = reader.take(most as u64 + 1).read_to_end(&mut bytes);
     read.map_err(|error| Diagnostic::about(name, &unreadable(&error)))?;
-    if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
+    if bytes.len() > most {
+        return Err(too_large(name, None, most));
+    }
+    String::from_utf8(bytes)
+        .map_err(|error| not_utf8(name, error.as_bytes(), error.utf8_error().valid_up_to()))
 }
 
 /// Whether the file is a named pipe that may have no writer, so that reading would block. Pipes of
@@ -201,8 +200,8 @@ fn unreadable(error: &io::Error) -> String {
     }
 }
 
-fn too_large(name: &str, bytes: Option<u64>) -> Diagnostic {
-    let limit = MAX_BYTES / 1024;
+fn too_large(name: &str, bytes: Option<u64>, most: usize) -> Diagnostic {
+    let limit = most / 1024;
     let message = match bytes {
         Some(bytes) => {
             format!("the file is too large: {} KiB, at most {limit} KiB", bytes.div_ceil(1024))
