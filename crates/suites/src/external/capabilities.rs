@@ -49,6 +49,8 @@ macro_rules! flags {
             #[doc = "Whether a solver with the law `small_strain` may replace `linear_elastic`: the \
                 judged state is an exact solution of small-strain elasticity."]
             pub small_strain: bool,
+            /// Whether the verdict depends on the velocities.
+            pub velocity: bool,
             $(#[doc = $need] pub $name: bool,)+
             /// Parts of the scene that the protocol does not support.
             pub beyond: Vec<&'static str>,
@@ -327,6 +329,7 @@ mod tests {
             columns: vec!["stress"],
             gradients: vec!["young"],
             small_strain: true,
+            velocity: true,
             manufactured: true,
             initial_deformation: true,
             several_bodies: true,

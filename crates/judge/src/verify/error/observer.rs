@@ -15,14 +15,15 @@ pub struct History {
 
 impl History {
     /// Starts the history of the label of `samples` that is nearest to `wanted`, the first of
-    /// equally near ones. `None` without labels.
+    /// equally near ones. `None` without labels, or if the solver reports no velocities.
     pub fn start(samples: &Samples, wanted: &[f64]) -> Option<(usize, Self)> {
         let d = samples.dimension;
         let distance = |p: usize| -> f64 {
             let label = &samples.label[p * d..(p + 1) * d];
             label.iter().zip(wanted).map(|(a, b)| (a - b) * (a - b)).sum()
         };
-        let nearest = (0..samples.len())
+        let count = if samples.velocity.is_empty() { 0 } else { samples.len() };
+        let nearest = (0..count)
             .reduce(|best, p| if distance(p) < distance(best) * (1.0 - 1e-9) { p } else { best })?;
         let label = samples.label[nearest * d..(nearest + 1) * d].to_vec();
         Some((nearest, Self { label, velocity: Vec::new() }))

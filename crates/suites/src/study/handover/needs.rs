@@ -11,7 +11,7 @@ use crate::suite::model::method::{ExternalMethod, GateTerms, LawChoice};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, Suite};
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
-use crate::verify::{StepKind, SumNeed};
+use crate::verify::{Quantity, StepKind, SumNeed};
 
 /// Returns the capabilities that a convergence study requires.
 pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
@@ -20,6 +20,9 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         manufactured: plan.manufactured().is_some(),
         initial_deformation: starts_deformed(plan),
         load_steps: plan.steps == StepKind::Load,
+        velocity: plan.of == Quantity::Velocity
+            || plan.of.is_sum()
+            || plan.exact.as_ref().is_some_and(|exact| exact.at_rest),
         small_strain: plan
             .exact
             .as_ref()
