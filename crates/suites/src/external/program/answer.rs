@@ -78,7 +78,7 @@ pub(super) enum Answer {
 }
 
 /// Sample points of a solver that does not use the particles of the problem.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub(super) struct Points {
     /// Reference positions (m), D numbers each.
     pub(super) reference_position: ColumnText,
@@ -87,7 +87,7 @@ pub(super) struct Points {
 }
 
 /// A state after a step.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 pub(super) struct State {
     /// Columns by name: `displacement` (m), `velocity` (m/s), and the columns in `capabilities`.
     pub(super) columns: BTreeMap<String, ColumnText>,
@@ -134,6 +134,20 @@ pub(super) struct Hello {
     pub(super) capabilities: StatedCapabilities,
 }
 
+impl Hello {
+    /// Returns the settings for reports.
+    pub(super) fn settings(&self) -> Vec<(String, String)> {
+        let version = printable(&self.version);
+        let version = if version.is_empty() { "not stated".to_owned() } else { version };
+        vec![
+            ("solver".to_owned(), self.name.clone()),
+            ("version".to_owned(), version),
+            ("precision".to_owned(), self.precision.name().to_owned()),
+            ("formal order".to_owned(), format!("{}, as stated by the solver", self.formal_order)),
+        ]
+    }
+}
+
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct StatedCapabilities {
     pub(super) known: Capabilities,
@@ -161,7 +175,7 @@ fn two() -> f64 {
 
 /// A column: its numbers, or its position in the bytes after the message, as offset (bytes) and
 /// number of doubles.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum ColumnText {
     Numbers(Vec<f64>),

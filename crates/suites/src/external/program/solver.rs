@@ -5,7 +5,9 @@ use super::connection::{Connection, ProgramLimits};
 use super::error::{ProgramError, printable};
 use super::frame::Outgoing;
 use super::inquiry::Inquiry;
-use super::subject::{ProgramSubject, QUESTIONS_PER_STEP, conclude, longest_answer};
+use super::subject::{
+    ProgramSubject, QUESTIONS_PER_STEP, conclude, longest_answer, states_of_process,
+};
 use crate::external::SolverFactory;
 use crate::external::capabilities::{Capabilities, ProblemNeeds};
 use crate::external::gradient::{Gradient, GradientError, GradientRequest};
@@ -72,7 +74,8 @@ impl SolverProgram {
 
     fn start(&self, problem: &LevelProblem) -> Result<ProgramSubject, ProgramError> {
         let Started { connection, inquiry, hello, points, bytes } = self.ready(problem)?;
-        ProgramSubject::new(connection, inquiry, problem, points, &bytes, &hello)
+        let states = states_of_process(connection, problem.dt);
+        ProgramSubject::new(states, inquiry, problem, points, &bytes, &hello)
     }
 
     fn ready(&self, problem: &LevelProblem) -> Result<Started, ProgramError> {
@@ -209,17 +212,7 @@ impl SolverFactory for SolverProgram {
     }
 
     fn settings(&self) -> Vec<(String, String)> {
-        let version = printable(&self.hello.version);
-        let version = if version.is_empty() { "not stated".to_owned() } else { version };
-        vec![
-            ("solver".to_owned(), self.hello.name.clone()),
-            ("version".to_owned(), version),
-            ("precision".to_owned(), self.hello.precision.name().to_owned()),
-            (
-                "formal order".to_owned(),
-                format!("{}, as stated by the solver", self.hello.formal_order),
-            ),
-        ]
+        self.hello.settings()
     }
 
     fn identity(&self) -> Option<u64> {

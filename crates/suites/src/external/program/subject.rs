@@ -34,17 +34,39 @@ pub(super) fn conclude(
     }
 }
 
-/// A level that runs in a solver process, with one message for all steps up to the next instant.
+/// Returns the state after a number of steps, with the bytes of its columns.
+pub(super) type StateSource =
+    Box<dyn FnMut(u64, &mut Inquiry) -> Result<(State, Vec<u8>), ProgramError>>;
+
+/// Returns the states of a solver process, with one message for all steps up to the next instant.
+pub(super) fn states_of_process(mut connection: Connection, dt: f64) -> StateSource {
+    let mut taken = 0;
+    Box::new(move |called, inquiry| {
+        let steps = called - taken;
+        let content = json!({"steps": steps, "dt": dt, "from": taken as f64 * dt});
+        connection.send(Outgoing::new("advance", content, false));
+        inquiry.allow(steps.saturating_mul(QUESTIONS_PER_STEP));
+        match conclude(&mut connection, inquiry)? {
+            (Answer::State(state), bytes) => {
+                taken = called;
+                Ok((*state, bytes))
+            }
+            (Answer::Failed { reason }, _) => Err(ProgramError::Failed(printable(&reason))),
+            (other, _) => Err(ProgramError::unexpected("advance", other.name())),
+        }
+    })
+}
+
+/// A level whose states are computed outside this program.
 pub(super) struct ProgramSubject {
-    connection: Connection,
+    states: StateSource,
     dimension: usize,
     dt: f64,
     /// Remaining steps after which the state is requested.
     instants: std::vec::IntoIter<u64>,
     next: Option<u64>,
-    /// Number of steps that the caller has requested. The process has run `taken` of them.
+    /// Number of steps that the caller has requested.
     called: u64,
-    taken: u64,
     inquiry: Inquiry,
     /// Masses of the points (kg); `None` for sample points of several or varying densities.
     mass: Option<Vec<f64>>,
@@ -55,7 +77,7 @@ pub(super) struct ProgramSubject {
 impl ProgramSubject {
     /// Creates the level. Without `points`, the sample points are the particles.
     pub(super) fn new(
-        connection: Connection,
+        states: StateSource,
         mut inquiry: Inquiry,
         problem: &LevelProblem,
         points: Option<Points>,
@@ -106,35 +128,17 @@ impl ProgramSubject {
         };
         let mut instants = problem.instants.clone().into_iter();
         Ok(Self {
-            connection,
+            states,
             dimension: d,
             dt: problem.dt,
             next: instants.next(),
             instants,
             called: 0,
-            taken: 0,
             inquiry,
             mass,
             samples,
             counters,
         })
-    }
-
-    fn advance(&mut self) -> Result<(), ProgramError> {
-        let steps = self.called - self.taken;
-        let from = self.taken as f64 * self.dt;
-        let content = json!({"steps": steps, "dt": self.dt, "from": from});
-        self.connection.send(Outgoing::new("advance", content, false));
-        self.inquiry.allow(steps.saturating_mul(QUESTIONS_PER_STEP));
-        let (answer, bytes) = conclude(&mut self.connection, &mut self.inquiry)?;
-        match answer {
-            Answer::State(state) => {
-                self.taken = self.called;
-                self.look(*state, &bytes)
-            }
-            Answer::Failed { reason } => Err(ProgramError::Failed(printable(&reason))),
-            other => Err(ProgramError::unexpected("advance", other.name())),
-        }
     }
 
     fn look(&mut self, state: State, bytes: &[u8]) -> Result<(), ProgramError> {
@@ -175,7 +179,9 @@ impl Subject for ProgramSubject {
         self.called += 1;
         if self.next == Some(self.called) {
             self.next = self.instants.next();
-            self.advance().map_err(|error| Failure::External(error.to_string()))?;
+            let state = (self.states)(self.called, &mut self.inquiry);
+            let seen = state.and_then(|(state, bytes)| self.look(state, &bytes));
+            seen.map_err(|error| Failure::External(error.to_string()))?;
         }
         Ok(())
     }
