@@ -53,7 +53,8 @@ fn prices(suites: Vec<Suite>, args: &CostArgs) -> Result<Status, CommandError> {
     let runs = if solvers.is_empty() {
         SuiteRuns::of_methods(suites)
     } else {
-        let judged = |solver| solver::suites_of_solver(suites.clone(), solver, |_| None).0;
+        let judged =
+            |solver: &SolverProgram| solver::suites_of_solver(suites.clone(), solver, |_| None).0;
         let of_each = solvers.iter().map(judged).collect();
         SuiteRuns::of_solvers(&suites, of_each, args.programs.with_methods)
     };

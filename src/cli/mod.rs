@@ -65,10 +65,14 @@ enum Command {
     ///
     /// The finest levels run again with one change at a time.
     Diagnose(diagnose::DiagnoseArgs),
-    /// Write the initial state of one level, or its exact state at a given time
+    /// Write the initial state of levels, or the exact state of one level at a given time
     ///
     /// The files contain particles, grid, faces, material and steps, for any solver.
     Problem(problem::ProblemArgs),
+    /// Judge the results of a solver in files, one for each level
+    ///
+    /// `problem --all` writes the levels and describes the files. The exit status is that of `run`.
+    Judge(Box<run::JudgeArgs>),
     /// Write a new suite with a comment for each key
     New(new::NewArgs),
     /// Validate suites without running them
@@ -113,7 +117,7 @@ enum Command {
 
 const GROUPS: [(&str, &[&str], &str); 5] = [
     ("Start", &["run", "list", "explain"], "run vibrating-bar"),
-    ("Your solver", &["doctor", "diagnose", "problem"], "doctor --solver 'python mpm.py'"),
+    ("Your solver", &["doctor", "diagnose", "problem", "judge"], "doctor --solver 'python mpm.py'"),
     ("Your suites", &["new", "check", "propose", "steps"], "check my-suite.yaml"),
     ("Results", &["compare", "accept", "cost", "estimate", "merge"], "cost vibrating-bar"),
     ("Maintenance", &["schema", "completions", "man"], "completions bash"),
@@ -186,6 +190,7 @@ fn run_command(command: Command) -> Result<Status, CommandError> {
         Command::Run(args) => run::run(&args),
         Command::New(args) => new::new(&args),
         Command::Merge(args) => run::merge(&args),
+        Command::Judge(args) => run::judge(&args),
         Command::List(args) => Ok(list::list(&args)),
         Command::Check(args) => check::check(&args),
         Command::Explain(args) => explain::explain(&args),

@@ -4,11 +4,18 @@ use super::arguments::{Expected, number, whole};
 use super::output::{CommandError, Status};
 use super::{output, select};
 use clap::Args;
-use mpm_verify::external::ProblemFormat;
-use mpm_verify::study::{exact_state, level_problem};
-use mpm_verify::suite::Suite;
+use mpm_verify::external::{
+    LevelProblem, ProblemFormat, ProblemGrid, ProblemMaterial, ResultLevel,
+};
+use mpm_verify::study::{exact_state, level_problem, result_levels, statement};
+use mpm_verify::subject::Precision;
+use mpm_verify::suite::{Extent, ExternalMethod, Suite};
+use std::fmt::Display;
+use std::fs;
 use std::io::{IsTerminal, stdout};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+const ONE_SUITE: &str = "expected one suite, not a folder of suites";
 
 #[derive(Debug, Args)]
 pub(super) struct ProblemArgs {
@@ -22,6 +29,13 @@ pub(super) struct ProblemArgs {
     /// Write the exact state at this time (s) instead of the initial state
     #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
     at: Option<f64>,
+    /// Write all levels that `run` uses into this folder, and a README that describes the problem
+    /// and the results for `judge`
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["level", "at"])]
+    all: Option<PathBuf>,
+    /// Also write the finer levels that suites list under `full`
+    #[arg(long, requires = "all")]
+    full: bool,
     /// Format of the output: csv, json, npz, vtu
     #[arg(long, alias = "out", value_name = "FORMAT", value_parser = format, default_value = "csv")]
     format: ProblemFormat,
@@ -35,6 +49,9 @@ fn format(name: &str) -> Result<ProblemFormat, Expected> {
 }
 
 pub(super) fn problem(args: &ProblemArgs) -> Result<Status, CommandError> {
+    if let Some(folder) = &args.all {
+        return write_all(folder, args);
+    }
     if args.format.is_binary() && stdout().is_terminal() {
         let format = args.format.name();
         return Err(CommandError::Message(format!(
@@ -46,11 +63,68 @@ pub(super) fn problem(args: &ProblemArgs) -> Result<Status, CommandError> {
     let written = suites.into_iter().map(|suite| of_suite(&suite?, args));
     let files: Vec<Vec<u8>> = written.collect::<Result<_, CommandError>>()?;
     let [file] = files.as_slice() else {
-        let message = "expected one suite, not a folder of suites";
-        return Err(CommandError::Message(message.to_owned()));
+        return Err(CommandError::Message(ONE_SUITE.to_owned()));
     };
     output::print_bytes(file);
     Ok(Status::Passed)
+}
+
+/// Writes all levels and the file README.md. Existing files with other content are not replaced.
+fn write_all(folder: &Path, args: &ProblemArgs) -> Result<Status, CommandError> {
+    let suites = select::suites(std::slice::from_ref(&args.suite));
+    let suites = suites.into_iter().collect::<Result<Vec<Suite>, _>>()?;
+    let [suite] = &suites[..] else {
+        return Err(CommandError::Message(ONE_SUITE.to_owned()));
+    };
+    let about = |reason: &dyn Display| CommandError::about(&suite.name, reason);
+    let extent = if args.full { Extent::Full } else { Extent::Usual };
+    let method = ExternalMethod { name: "", formal_order: 2.0, precision: Precision::Double };
+    let levels = result_levels(suite, method, extent).map_err(|reason| about(&reason))?;
+    let readme = readme(suite, &levels, folder, args);
+    let mut files = vec![(folder.join("README.md"), readme.into_bytes())];
+    for level in &levels {
+        let bytes = level.problem.written(args.format).map_err(|error| about(&error))?;
+        files.push((folder.join(format!("{}.{}", level.name, args.format.name())), bytes));
+    }
+    let is_other = |(path, bytes): &&(PathBuf, _)| fs::read(path).is_ok_and(|old| old != *bytes);
+    if let Some((path, _)) = files.iter().find(is_other) {
+        let reason = "this file exists with other content: choose another folder";
+        return Err(CommandError::option("--all", path.display(), reason));
+    }
+    for (path, bytes) in &files {
+        let written = fs::create_dir_all(folder).and_then(|()| fs::write(path, bytes));
+        written.map_err(|error| CommandError::option("--all", path.display(), error))?;
+    }
+    output::print(&format!("wrote {}\n", folder.join("README.md").display()));
+    Ok(Status::Passed)
+}
+
+fn readme(suite: &Suite, levels: &[ResultLevel], folder: &Path, args: &ProblemArgs) -> String {
+    let mut text = format!("# {}\n\n## Problem\n\n", suite.title);
+    for (key, value) in statement(suite) {
+        text += &format!("- {key}: {value}\n");
+    }
+    let materials = levels.first().map_or(&[][..], |level| &level.problem.materials);
+    for ProblemMaterial { law, density, parameters, .. } in materials {
+        text += &format!("- in SI units: {law}, density {density}, {parameters:?}\n");
+    }
+    text += "\n## Levels\n\n";
+    for ResultLevel { name, problem, .. } in levels {
+        let LevelProblem { grid, particles, dt, steps, .. } = problem;
+        let ProblemGrid { origin, h, cells, periodic, .. } = grid;
+        text += &format!(
+            "- {name}.{}: {} particles; {cells:?} cells of {h} m from {origin:?} m, periodic: \
+             {periodic:?}; {steps} steps of {dt} s; results at t (s) = {:?}\n",
+            args.format.name(),
+            particles.len(),
+            problem.times(),
+        );
+    }
+    let from = folder.join("results");
+    let [suite, from] = [&args.suite, &from].map(|path| path.to_string_lossy());
+    let words = ["mpm-verify", "judge", &suite, "--from", &from].into_iter();
+    let command = shlex::try_join(words.chain(args.full.then_some("--full"))).unwrap_or_default();
+    text + &include_str!("results.txt").replace("COMMAND", &command)
 }
 
 fn of_suite(suite: &Suite, args: &ProblemArgs) -> Result<Vec<u8>, CommandError> {

@@ -81,7 +81,7 @@ fn suite_of_solver(
 /// the names of the skipped suites, which test internals of the built-in methods.
 pub(super) fn suites_of_solver(
     suites: Vec<Suite>,
-    solver: &SolverProgram,
+    solver: &dyn SolverFactory,
     terms: impl Fn(&Suite) -> Option<GateTerms>,
 ) -> (Vec<Suite>, Vec<String>) {
     let (mut judged, mut left_out) = (Vec::new(), Vec::new());

@@ -37,7 +37,7 @@ pub(crate) const IMPORT_RULES: &[ImportRule] = &[
     ImportRule { module: "vtk", may: &["subject"], why: "a file shows fields of any solver" },
     ImportRule {
         module: "external",
-        may: &["subject", "vtk"],
+        may: &["subject", "vtk", "suite::yaml"],
         why: "an external solver receives a problem, and must not see how it is judged",
     },
     ImportRule {

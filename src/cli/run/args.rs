@@ -1,6 +1,6 @@
 //! Arguments of `run` and `merge`.
 
-use crate::cli::arguments::{Expected, SOLVER, SolversArgs, Targets, count, whole};
+use crate::cli::arguments::{Expected, SOLVER, SolversArgs, Targets, count, number, whole};
 use clap::{Args, ValueEnum};
 use mpm_verify::study::Shard;
 use std::path::PathBuf;
@@ -46,7 +46,9 @@ pub(in crate::cli) struct RunArgs {
         conflicts_with_all = ["case", "shard", "repeat", "full"])]
     pub(super) snapshots: Option<String>,
     #[command(flatten)]
-    pub(super) judged: JudgedSolverArgs,
+    pub(super) programs: SolversArgs,
+    #[command(flatten)]
+    pub(super) gate: GateArgs,
 }
 
 #[derive(Debug, Args)]
@@ -131,10 +133,29 @@ pub(in crate::cli) struct MergeArgs {
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct JudgedSolverArgs {
+pub(in crate::cli) struct JudgeArgs {
     #[command(flatten)]
-    pub(super) programs: SolversArgs,
-    /// Require that each case of the `--solver` program reaches the theoretical order or the error
+    pub(super) report: ReportArgs,
+    /// Folder with the results, one file (CSV) for each level; `problem --all` describes the files
+    // The options of the gate require an argument `solver`.
+    #[arg(help_heading = SOLVER, id = "solver", long = "from", value_name = "DIR")]
+    pub(super) from: PathBuf,
+    /// Name of the solver in reports
+    #[arg(help_heading = SOLVER, long, default_value = "results")]
+    pub(super) name: String,
+    /// Theoretical order in h of the displacement error for a smooth solution
+    #[arg(help_heading = SOLVER, long, value_name = "P", value_parser = number, default_value_t = 2.0)]
+    pub(super) formal_order: f64,
+    /// The solver computes in single precision
+    #[arg(help_heading = SOLVER, long)]
+    pub(super) single: bool,
+    #[command(flatten)]
+    pub(super) gate: GateArgs,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct GateArgs {
+    /// Require that each case of the solver reaches the theoretical order or the error
     /// bounds of the suite; exit status 1 unless every case passes or is excepted
     #[arg(help_heading = SOLVER, long, requires = "solver")]
     pub(super) gate: bool,

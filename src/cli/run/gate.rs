@@ -1,8 +1,8 @@
 //! `run --gate` and `--solver-config`: the requirements on a solver, and whether it meets them.
 
-use super::args::JudgedSolverArgs;
+use super::args::GateArgs;
 use crate::cli::{output, select, solver};
-use mpm_verify::external::SolverProgram;
+use mpm_verify::external::SolverFactory;
 use mpm_verify::nearest;
 use mpm_verify::suite::yaml::{Diagnostic, Ordered, Source, Step, read};
 use mpm_verify::suite::{GateTerms, Suite, pattern};
@@ -11,9 +11,9 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// A running external solver, with the gate (set of requirements) that it must pass.
+/// An external solver, with the gate (set of requirements) that it must pass.
 pub(super) struct JudgedSolver {
-    pub(super) program: SolverProgram,
+    pub(super) solver: Box<dyn SolverFactory>,
     pub(super) gate: Option<SolverGate>,
 }
 
@@ -28,14 +28,14 @@ pub(super) struct SolverGate {
 /// Replaces the methods of the suites by the solver. Also returns the gate, if requested.
 pub(super) fn prepare(
     suites: Vec<Suite>,
-    program: &SolverProgram,
-    args: &JudgedSolverArgs,
+    solver: &dyn SolverFactory,
+    args: &GateArgs,
     named: &BTreeSet<String>,
 ) -> Result<(Vec<Suite>, Option<SolverGate>), Diagnostic> {
     let config = args.solver_config.as_deref().map(|file| SolverConfig::read(file, &suites));
     let config = config.transpose()?.unwrap_or_default();
     let terms = |suite: &Suite| args.gate.then(|| config.terms(suite));
-    let (judged, left_out) = solver::suites_of_solver(suites, program, terms);
+    let (judged, left_out) = solver::suites_of_solver(suites, solver, terms);
     let allows_not_applicable = args.allow_not_applicable;
     let gate =
         args.gate.then(|| SolverGate { named: named.clone(), allows_not_applicable, left_out });

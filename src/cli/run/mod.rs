@@ -12,13 +12,15 @@ use super::output::{CommandError, Status};
 use super::suite_runs::{self, SuitePart, SuiteRuns};
 use super::{output, select, snapshots, solver};
 use args::ReportArgs;
-pub(super) use args::{MergeArgs, RunArgs};
+pub(super) use args::{JudgeArgs, MergeArgs, RunArgs};
 use files::Series;
 use gate::{JudgedSolver, SolverGate};
+use mpm_verify::external::ResultFolder;
 use mpm_verify::report::{self, RunTimes};
-use mpm_verify::study::{ResultCache, Runner, StepWarning, unit_seconds};
+use mpm_verify::study::{ResultCache, Runner, StepWarning, result_levels, unit_seconds};
+use mpm_verify::subject::{HIGHEST_ORDER, Precision, is_solver_name};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Extent, Suite};
+use mpm_verify::suite::{Extent, ExternalMethod, Suite};
 use mpm_verify::verify::{SuiteOutcome, Verdict};
 use printing::Printing;
 use progress::RunProgress;
@@ -44,14 +46,46 @@ pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     let parts = ResultCache::of_parts(&args.from)
         .map_err(|(folder, error)| CommandError::option("--from", folder.display(), error))?;
     // All results are those of the parts, and no level runs.
-    let kept = Judging {
-        kept: Some(parts),
-        solvers: Vec::new(),
-        repeat: 1,
-        series: None,
-        at_interrupt: None,
-    };
+    let kept = Judging { kept: Some(parts), ..Judging::default() };
     report(&args.report, None, |suites| Ok((SuiteRuns::of_methods(suites), kept)))
+}
+
+pub(super) fn judge(args: &JudgeArgs) -> Result<Status, CommandError> {
+    threads(args.report.jobs)?;
+    report(&args.report, None, |suites| with_results(args, &suites))
+}
+
+fn with_results(
+    args: &JudgeArgs,
+    suites: &[Suite],
+) -> Result<(Vec<SuiteRuns>, Judging), CommandError> {
+    let suite = match suites {
+        [suite] => suite,
+        [] => return Ok((Vec::new(), Judging::default())),
+        _ => return Err(CommandError::Message("expected one suite".to_owned())),
+    };
+    let (name, formal_order) = (args.name.as_str(), args.formal_order);
+    if !is_solver_name(name) {
+        return Err(CommandError::option(
+            "--name",
+            name,
+            "expected letters, digits, `-`, `_` or `.`",
+        ));
+    }
+    if !(formal_order > 0.0 && formal_order <= HIGHEST_ORDER) {
+        let reason = format!("expected a number above 0 and up to {HIGHEST_ORDER}");
+        return Err(CommandError::option("--formal-order", formal_order, reason));
+    }
+    let precision = if args.single { Precision::Single } else { Precision::Double };
+    let method = ExternalMethod { name, formal_order, precision };
+    let levels = result_levels(suite, method, extent(&args.report))
+        .map_err(|reason| CommandError::about(&suite.name, reason))?;
+    let solver = ResultFolder::read(&args.from, &levels, name, formal_order, precision)?;
+    let named = select::named_singly(&args.report.targets.targets, suites);
+    let (judged, gate) = gate::prepare(suites.to_vec(), &solver, &args.gate, &named)?;
+    let solvers = vec![JudgedSolver { solver: Box::new(solver), gate }];
+    let runs = SuiteRuns::of_solvers(suites, vec![judged], false);
+    Ok((runs, Judging { solvers, ..Judging::default() }))
 }
 
 fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError> {
@@ -62,15 +96,15 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
     let mut solvers = Vec::new();
     let mut of_each = Vec::new();
     let named = select::named_singly(&args.report.targets.targets, &suites);
-    for program in solver::greet_all(&args.judged.programs)? {
-        let (judged, gate) = gate::prepare(suites.clone(), &program, &args.judged, &named)?;
-        solvers.push(JudgedSolver { program, gate });
+    for solver in solver::greet_all(&args.programs)? {
+        let (judged, gate) = gate::prepare(suites.clone(), &solver, &args.gate, &named)?;
+        solvers.push(JudgedSolver { solver: Box::new(solver), gate });
         of_each.push(judged);
     }
     let mut runs = if solvers.is_empty() {
         SuiteRuns::of_methods(suites)
     } else {
-        SuiteRuns::of_solvers(&suites, of_each, args.judged.programs.with_methods)
+        SuiteRuns::of_solvers(&suites, of_each, args.programs.with_methods)
     };
     suite_runs::check_names(&runs)?;
     if args.last_failed {
@@ -83,7 +117,7 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
         }
     }
     if let Some(shard) = args.shard {
-        if args.judged.programs.with_methods || solvers.len() > 1 {
+        if args.programs.with_methods || solvers.len() > 1 {
             let reason = "shards are supported for one solver, or for the built-in methods";
             return Err(CommandError::about("--shard", reason));
         }
@@ -317,9 +351,11 @@ fn extent(args: &ReportArgs) -> Extent {
     if args.full { Extent::Full } else { Extent::Usual }
 }
 
+#[derive(Default)]
 struct Judging {
     kept: Option<ResultCache>,
     solvers: Vec<JudgedSolver>,
+    /// Number of runs of each level; 0 means 1.
     repeat: usize,
     series: Option<Series>,
     at_interrupt: Option<String>,
@@ -345,7 +381,7 @@ fn one<T>(
     let runner =
         Runner::over(suite, extent(args)).keeping(judging.kept.as_ref()).repeating(judging.repeat);
     let runner = match part.solver {
-        Some(number) => runner.judging(&judging.solvers[number].program),
+        Some(number) => runner.judging(judging.solvers[number].solver.as_ref()),
         None => runner,
     };
     let text = |warning: &StepWarning| format!("warning: {}", warning.text);

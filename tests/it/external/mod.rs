@@ -13,6 +13,8 @@ pub(crate) mod misbehaving;
 mod program;
 mod repeat;
 #[cfg(unix)]
+mod results;
+#[cfg(unix)]
 mod several;
 mod single_precision;
 mod spectrum;

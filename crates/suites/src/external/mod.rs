@@ -24,7 +24,9 @@ pub use problem::{
 #[doc(hidden)]
 pub use program::read_answers;
 #[cfg(feature = "external-programs")]
-pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema};
+pub use program::{
+    ProgramError, ProgramLimits, ResultFolder, ResultLevel, SolverProgram, protocol_schema,
+};
 
 // For other modules and packages of this project, without a promise of stability.
 #[doc(hidden)]

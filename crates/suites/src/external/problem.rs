@@ -218,6 +218,12 @@ pub struct ProblemMaterial {
 }
 
 impl LevelProblem {
+    /// Returns the times (s) at which the state is compared with the exact solution.
+    pub fn times(&self) -> Vec<f64> {
+        let time = |step: &u64| self.until * *step as f64 / self.steps as f64;
+        self.instants.iter().map(time).collect()
+    }
+
     /// Replaces the law `linear_elastic` by `small_strain`. A body that starts deformed has the
     /// stress `C : sym(F - I)`.
     #[doc(hidden)]

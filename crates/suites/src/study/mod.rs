@@ -21,6 +21,8 @@ pub(crate) mod time_series;
 pub use cache::ResultCache;
 pub use diagnosis::diagnose;
 pub use exact_motion::linearisation;
+#[cfg(feature = "external-programs")]
+pub use handover::result_levels;
 pub use handover::{exact_state, lacking, level_problem, needs, under};
 pub use kind::profile;
 pub use preflight::{estimate, estimates, preflight};

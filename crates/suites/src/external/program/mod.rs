@@ -5,12 +5,14 @@ mod connection;
 mod error;
 mod frame;
 mod inquiry;
+mod results;
 mod schema;
 mod solver;
 mod subject;
 
 pub use connection::ProgramLimits;
 pub use error::ProgramError;
+pub use results::{ResultFolder, ResultLevel};
 pub use schema::protocol_schema;
 pub use solver::SolverProgram;
 

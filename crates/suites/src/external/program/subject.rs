@@ -141,6 +141,12 @@ impl ProgramSubject {
         })
     }
 
+    /// Removes the initial velocities, if the states contain no velocities.
+    pub(super) fn omit_velocities(mut self) -> Self {
+        self.samples.velocity.clear();
+        self
+    }
+
     fn look(&mut self, state: State, bytes: &[u8]) -> Result<(), ProgramError> {
         let (d, n) = (self.dimension, self.samples.len());
         let State { mut columns, crossings, left_domain, min_j } = state;
@@ -151,7 +157,12 @@ impl ProgramSubject {
         let missing = |name| ProgramError::Protocol(format!("sent no column `{name}`"));
         samples.displacement =
             column("displacement", n * d)?.ok_or_else(|| missing("displacement"))?;
-        samples.velocity = column("velocity", n * d)?.ok_or_else(|| missing("velocity"))?;
+        // A solver with results in files may omit all velocities.
+        let velocity = column("velocity", n * d)?;
+        samples.velocity = match velocity {
+            None if !samples.velocity.is_empty() => return Err(missing("velocity")),
+            velocity => velocity.unwrap_or_default(),
+        };
         samples.stress = column("stress", n * d * d)?.unwrap_or_default();
         let across = if d == 2 { column("stress_across", n)? } else { None };
         samples.stress_across = across.unwrap_or_default();
@@ -195,7 +206,7 @@ impl Subject for ProgramSubject {
     }
 
     fn totals(&self) -> Option<Totals> {
-        let masses = self.mass.as_ref()?;
+        let masses = self.mass.as_ref().filter(|_| !self.samples.velocity.is_empty())?;
         let d = self.dimension;
         let mut totals = Totals::default();
         for (p, mass) in masses.iter().enumerate() {

@@ -4,6 +4,8 @@ mod fields;
 mod initial;
 mod needs;
 mod particles;
+#[cfg(feature = "external-programs")]
+mod results;
 
 pub use initial::level_problem;
 pub(crate) use initial::{HandedRun, problem};
@@ -11,3 +13,5 @@ pub use needs::{lacking, needs, under, under_on};
 pub(crate) use needs::{of_scene, subject_under};
 pub use particles::exact_state;
 pub(crate) use particles::{is_deformed, start, unloaded};
+#[cfg(feature = "external-programs")]
+pub use results::result_levels;

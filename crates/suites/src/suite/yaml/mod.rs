@@ -49,6 +49,8 @@ pub use place::Place;
 pub use read::read;
 pub(crate) use read::{parse, read_again, written};
 pub use source::Source;
+#[cfg(feature = "external-programs")]
+pub(crate) use source::read_text;
 
 // For other modules and packages of this project, without a promise of stability.
 #[doc(hidden)]

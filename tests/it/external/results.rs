@@ -1,0 +1,186 @@
+//! `problem --all` and `judge`: results of a solver in files.
+
+use super::bar;
+use super::program::{HELLO, SECOND_ORDER};
+use crate::cli::{BAR, FAILED, Folder};
+use crate::common::folder::{assert_contains, flat};
+use rstest::rstest;
+use serde_json::Value;
+use std::fs::File;
+
+/// Two levels of two and four particles, each with results at two times.
+fn short() -> Folder {
+    let suite = BAR.replace("[4, 6, 8, 12], ppc: 4", "[1, 2], ppc: 2");
+    let folder = Folder::with("bar.yaml", suite.replace("until: 0.05", "until: 0.002"));
+    folder.write("results/1.csv", TABLE);
+    folder
+}
+
+const TABLE: &str = "t,X,u_x,v_x\n.001,.25,0,0\n.001,.75,0,0\n.002,.25,0,0\n.002,.75,0,0\n";
+
+/// Replaces a part of [`TABLE`]; `*` stands for all of it.
+#[rstest]
+#[case::no_number(".75,0,0\n.0", ".75,abc,0\n.0", ":3:10", "`abc` is not a finite number")]
+#[case::nan(".75,0,0\n.0", ".75,NaN,0\n.0", ":3:10", "`NaN` is not a finite number")]
+#[case::infinity("\n.002,.75,0", "\n.002,.75,-inf", ":5:10", "`-inf` is not a finite number")]
+#[case::overflow("\n.002,.75,0", "\n.002,.75,1e999", ":5:10", "`1e999` is not a finite number")]
+#[case::fortran("\n.002,.75,0", "\n.002,.75,1.5D-3", ":5:10", "expected a number such as 0.125")]
+#[case::quoted("\n.002,.75", "\n.002,\".75\"", ":5:6", "without quotes")]
+#[case::empty_cell("\n.002,.75", "\n.002,", ":5:6", "`` is not a finite number")]
+#[case::too_few_cells("\n.002,.75,0,0", "\n.002,.75,0", ":5:1", "found 3 cells, expected 4")]
+#[case::too_many_cells("\n.002,.75,0,0", "\n.002,.75,0,0,7", ":5:14", "found 5 cells")]
+#[case::decimal_comma("\n.002,.75", "\n.002,0,75", ":5:13", "expected points in numbers")]
+#[case::semicolons("*", "t;X;u_x\n0,001;0,25;0\n", ":1:1", "commas between them")]
+#[case::tabs("*", "t\tX\tu_x\n", ":1:1", "unknown column `t\\u{9}X\\u{9}u_x`")]
+#[case::no_names("t,X,u_x,v_x\n", "", ":1:1", "the first line has names")]
+#[case::quoted_names("t,X", "t,\"X\"", ":1:3", "unknown column `\"X\"`")]
+#[case::unknown("v_x", "V_x", ":1:9", "did you mean `v_x`?")]
+#[case::of_another_dimension("v_x", "u_y", ":1:9", "unknown column `u_y`")]
+#[case::initial_state("X", "position_x", ":1:3", "unknown column `position_x`")]
+#[case::doubled_column("v_x", "u_x", ":1:9", "column `u_x` is doubled")]
+#[case::no_displacement("u_x", "F_xx", ":1:1", "lacks the displacement (`u_x`, ...)")]
+#[case::no_label("X,u_x,v_x\n", "u_x,v_x,F_xx\n", ":1:1", "lacks either labels (`X`, ...)")]
+#[case::two_labels("v_x", "particle", ":1:1", "lacks either labels")]
+#[case::no_time("t,X", "F_xx,X", ":1:1", "expected results at t = [0.001, 0.002]")]
+#[case::wrong_time("\n.002,.75", "\n.003,.75", ":5:1", "the nearest one is t = 0.002, X = 0.75")]
+#[case::initial_time("\n.001,.75", "\n0,.75", ":3:1", "no row is expected for t = 0, X = 0.75")]
+#[case::doubled("\n.002,.75", "\n.002,.25", ":5:1", "help: see line 4")]
+#[case::too_many_rows(
+    "*",
+    "t,X,u_x\n.001,.25,0\n.001,.25,0\n",
+    ":3:1",
+    "the row of t = 0.001, X = 0.25 is doubled"
+)]
+#[case::missing("\n.002,.75,0,0", "", "", "there is no row for t = 0.002, X = 0.75")]
+#[case::no_rows_at_a_time("*", "t,X,u_x\n.001,.25,0\n.001,.75,0\n", "", "2 of 4 rows are missing")]
+#[case::no_rows("*", "t,X,u_x\n", "", "4 of 4 rows are missing")]
+#[case::empty("*", "", "", "the file is empty")]
+#[case::blank("*", "\u{feff}\n \r\n", "", "the file is empty")]
+#[case::nowhere("\n.002,.75", "\n.002,.8", ":5:6", "the nearest one is t = 0.002, X = 0.75")]
+#[case::millimetres("*", "t,X,u_x\n.001,250,0\n.001,750,0\n", ":2:6", "the labels look like mm")]
+#[case::from_zero(
+    "*",
+    "t,particle,u_x\n.001,0,0\n",
+    ":2:6",
+    "the nearest one is t = 0.001, particle = 1"
+)]
+#[case::fraction("*", "t,particle,u_x\n.001,1.5,0\n", ":2:6", "for t = 0.001, particle = 1.5")]
+#[case::huge_number("*", "t,particle,u_x\n.001,1e300,0\n", ":2:6", "the nearest one is t = 0.00")]
+#[case::negative(
+    "*",
+    "t,particle,u_x\n.001,-1,0\n",
+    ":2:6",
+    "the nearest one is t = 0.001, particle = 1"
+)]
+#[case::no_weight("v_x\n", "weight\n", ":2:12", "expected a positive weight")]
+fn invalid_table_is_refused(
+    #[case] from: &str,
+    #[case] to: &str,
+    #[case] place: &str,
+    #[case] message: &str,
+) {
+    let folder = short();
+    let table = if from == "*" { to.to_owned() } else { TABLE.replacen(from, to, 1) };
+    assert_ne!(table, TABLE);
+    folder.write("results/1.csv", table);
+    let errors = folder.refused(&["judge", "bar.yaml", "--from", "results"]);
+    let place = format!("--> results/1.csv{place} ");
+    assert_contains(&(flat(&errors) + " "), &[&place, message]);
+}
+
+/// Each file replaces the results of the second level.
+#[rstest]
+#[case::of_another_level(TABLE.as_bytes(), "1.csv has as many rows as this file")]
+#[case::not_text(
+    b"t,X,u_x\n.001,\xff",
+    "the file is not UTF-8 text: byte 13 does not fit --> results/2.csv:2:6"
+)]
+fn invalid_file_is_refused(#[case] bytes: &[u8], #[case] message: &str) {
+    let folder = short();
+    folder.write("results/2.csv", bytes);
+    let errors = folder.refused(&["judge", "bar.yaml", "--from", "results"]);
+    assert_contains(&flat(&errors), &[message]);
+}
+
+#[test]
+fn results_that_are_not_there_are_refused() {
+    let folder = short();
+    let refused = |from: &str| flat(&folder.refused(&["judge", "bar.yaml", "--from", from]));
+    let missing = "there is no such file --> results/2.csv = help: expected the files 1.csv, 2.csv";
+    assert_contains(&refused("results"), &[missing]);
+    assert_contains(&refused("elsewhere"), &["there is no such file --> elsewhere/1.csv"]);
+    let file = File::create(folder.path().join("results/1.csv")).expect("a file");
+    file.set_len((1 << 30) + 1).expect("a sparse file");
+    assert_contains(&refused("results"), &["the file is too large: 1048577 KiB"]);
+}
+
+/// The script of a program with the protocol logs its states, which become files.
+#[rstest]
+#[case::particles("t,particle,u_x,v_x\n", false)]
+#[case::labels_in_another_order("\u{feff}v_x,X,u_x,t\r\n", true)]
+fn files_have_the_verdict_of_the_protocol(#[case] names: &str, #[case] has_labels: bool) {
+    let folder = Folder::with("bar.yaml", bar());
+    let solver = SECOND_ORDER
+        .replace("HELLO", HELLO)
+        .replace("\n        }'", "\n        }' > one-$$; cat one-$$ >> log-$$; cat one-$$");
+    folder.write("solver.sh", solver);
+    let run = ["run", "bar.yaml", "--gate", "--format", "json", "--solver", "sh solver.sh"];
+    let expected = folder.accepted(&run);
+    assert_eq!(folder.accepted(&["problem", "bar.yaml", "--all", "all"]), "wrote all/README.md\n");
+    for file in folder.files(".").iter().filter(|file| file.starts_with("log-")) {
+        let states = folder.read(file);
+        let states: Vec<Value> =
+            states.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+        let count = states[0]["columns"]["velocity"].as_array().map_or(0, Vec::len);
+        let level = folder.read(&format!("all/{}.csv", count / 4));
+        let labels: Vec<&str> =
+            level.lines().skip(1).map(|line| line.split(',').next().expect("X")).collect();
+        let mut rows = Vec::new();
+        for (k, state) in states.iter().enumerate() {
+            let t = 0.004 * (k + 1) as f64 / states.len() as f64;
+            for p in 0..count {
+                let [u, v] = ["displacement", "velocity"].map(|name| &state["columns"][name][p]);
+                rows.push(if has_labels {
+                    format!("{v},{},{u},{t}\r\n", labels[p])
+                } else {
+                    format!("{t},{},{u},{v}\n", p + 1)
+                });
+            }
+        }
+        rows.reverse();
+        folder.write(&format!("results/{}.csv", count / 4), names.to_owned() + &rows.concat());
+    }
+    let judge = ["judge", "bar.yaml", "--gate", "--format", "json", "--from", "results"];
+    let found = folder.accepted(&[&judge[..], &["--name", "odd"]].concat());
+    assert_eq!(found.replace("results in results", "1"), expected);
+    assert!(found.contains("\"verdict\": \"converging\""), "{found}");
+}
+
+#[test]
+fn judged_quantity_without_a_column_is_not_applicable() {
+    let folder = short();
+    folder.write(
+        "bar.yaml",
+        folder.read("bar.yaml").replace("observe:", "judge: {of: velocity}\nobserve:"),
+    );
+    folder.write("results/2.csv", "t,particle,u_x\n.001,1,0\n.001,2,0\n.001,3,0\n.001,4,0\n.002,1,0\n.002,2,0\n.002,3,0\n.002,4,0\n");
+    let found = folder.call(&["judge", "bar.yaml", "--from", "results", "--format", "json"]);
+    assert_eq!(found.code, FAILED, "{}", found.errors);
+    assert_contains(&found.out, &["the solver lacks columns: velocity"]);
+}
+
+#[test]
+fn problem_does_not_replace_other_files() {
+    let folder = short();
+    let call = ["problem", "bar.yaml", "--all", "results"];
+    let errors = folder.refused(&call);
+    assert_contains(&errors, &["results/1.csv: this file exists with other content"]);
+    assert_eq!(folder.files("results"), ["1.csv"]);
+    for _ in 0..2 {
+        folder.accepted(&["problem", "bar.yaml", "--all", "levels", "--format", "json"]);
+    }
+    assert_eq!(folder.files("levels"), ["1.json", "2.json", "README.md"]);
+    let line = "- 2.json: 4 particles; [5] cells of 0.5 m from [0.0] m";
+    let command = "mpm-verify judge bar.yaml --from levels/results\n";
+    assert_contains(&folder.read("levels/README.md"), &[line, "t (s) = [0.001, 0.002]", command]);
+}
