@@ -106,18 +106,27 @@ fn readme(suite: &Suite, levels: &[ResultLevel], folder: &Path, args: &ProblemAr
     }
     let materials = levels.first().map_or(&[][..], |level| &level.problem.materials);
     for ProblemMaterial { law, density, parameters, .. } in materials {
-        text += &format!("- in SI units: {law}, density {density}, {parameters:?}\n");
+        text += &format!("- material in SI units: {law}, density = {density}");
+        for (key, value) in parameters {
+            text += &format!(", {key} = {value}");
+        }
+        text += "\n";
     }
     text += "\n## Levels\n\n";
     for ResultLevel { name, problem, .. } in levels {
         let LevelProblem { grid, particles, dt, steps, .. } = problem;
         let ProblemGrid { origin, h, cells, periodic, .. } = grid;
+        let axes = ["x", "y", "z"].into_iter().zip(periodic);
+        let along = axes.filter(|(_, is_periodic)| **is_periodic);
+        let along: String = along.map(|(axis, _)| format!(", periodic along {axis}")).collect();
         text += &format!(
-            "- {name}.{}: {} particles; {cells:?} cells of {h} m from {origin:?} m, periodic: \
-             {periodic:?}; {steps} steps of {dt} s; results at t (s) = {:?}\n",
+            "- {name}.{}: {} particles; grid of {} cells of {h} m, lowest corner ({}) m{along}; \
+             {steps} steps of {dt} s; results at t = {} s\n",
             args.format.name(),
             particles.len(),
-            problem.times(),
+            joined(cells, " x "),
+            joined(origin, ", "),
+            joined(&problem.times(), ", "),
         );
     }
     let from = folder.join("results");
@@ -125,6 +134,10 @@ fn readme(suite: &Suite, levels: &[ResultLevel], folder: &Path, args: &ProblemAr
     let words = ["mpm-verify", "judge", &suite, "--from", &from].into_iter();
     let command = shlex::try_join(words.chain(args.full.then_some("--full"))).unwrap_or_default();
     text + &include_str!("results.txt").replace("COMMAND", &command)
+}
+
+fn joined(values: &[impl Display], separator: &str) -> String {
+    values.iter().map(ToString::to_string).collect::<Vec<_>>().join(separator)
 }
 
 fn of_suite(suite: &Suite, args: &ProblemArgs) -> Result<Vec<u8>, CommandError> {

@@ -180,7 +180,7 @@ fn problem_does_not_replace_other_files() {
         folder.accepted(&["problem", "bar.yaml", "--all", "levels", "--format", "json"]);
     }
     assert_eq!(folder.files("levels"), ["1.json", "2.json", "README.md"]);
-    let line = "- 2.json: 4 particles; [5] cells of 0.5 m from [0.0] m";
+    let line = "- 2.json: 4 particles; grid of 5 cells of 0.5 m, lowest corner (0) m;";
     let command = "mpm-verify judge bar.yaml --from levels/results\n";
-    assert_contains(&folder.read("levels/README.md"), &[line, "t (s) = [0.001, 0.002]", command]);
+    assert_contains(&folder.read("levels/README.md"), &[line, "t = 0.001, 0.002 s", command]);
 }
