@@ -313,6 +313,23 @@ pub struct Totals {
 }
 
 impl Totals {
+    /// Returns the sums over sampled points with these masses (kg), without the stored energy.
+    pub fn of_points(masses: &[f64], samples: &Samples) -> Self {
+        let d = samples.dimension;
+        let mut totals = Self::default();
+        for (p, (mass, label)) in masses.iter().zip(samples.label.chunks_exact(d.max(1))).enumerate() {
+            let at = |column: &[f64], i: usize| if i < d { column[p * d + i] } else { 0.0 };
+            let v: [f64; 3] = std::array::from_fn(|i| at(&samples.velocity, i));
+            let x: [f64; 3] =
+                std::array::from_fn(|i| at(&samples.label, i) + at(&samples.displacement, i));
+            let turn =
+                [x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0]];
+            totals.add(*mass, v, turn.map(|turn| mass * turn));
+            totals.add_second_moments(*mass, &x[..d], label);
+        }
+        totals
+    }
+
     /// Adds a particle with this mass (kg), velocity (m/s) and angular momentum (kg m2/s).
     #[inline]
     pub fn add(&mut self, mass: f64, velocity: [f64; 3], spin: [f64; 3]) {

@@ -207,19 +207,6 @@ impl Subject for ProgramSubject {
 
     fn totals(&self) -> Option<Totals> {
         let masses = self.mass.as_ref().filter(|_| !self.samples.velocity.is_empty())?;
-        let d = self.dimension;
-        let mut totals = Totals::default();
-        for (p, mass) in masses.iter().enumerate() {
-            let at = |column: &[f64], i: usize| if i < d { column[p * d + i] } else { 0.0 };
-            let v: [f64; 3] = std::array::from_fn(|i| at(&self.samples.velocity, i));
-            let x: [f64; 3] = std::array::from_fn(|i| {
-                at(&self.samples.label, i) + at(&self.samples.displacement, i)
-            });
-            let turn =
-                [x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0]];
-            totals.add(*mass, v, turn.map(|turn| mass * turn));
-            totals.add_second_moments(*mass, &x[..d], &self.samples.label[p * d..(p + 1) * d]);
-        }
-        Some(totals)
+        Some(Totals::of_points(masses, &self.samples))
     }
 }
