@@ -317,7 +317,9 @@ impl Totals {
     pub fn of_points(masses: &[f64], samples: &Samples) -> Self {
         let d = samples.dimension;
         let mut totals = Self::default();
-        for (p, (mass, label)) in masses.iter().zip(samples.label.chunks_exact(d.max(1))).enumerate() {
+        for (p, (mass, label)) in
+            masses.iter().zip(samples.label.chunks_exact(d.max(1))).enumerate()
+        {
             let at = |column: &[f64], i: usize| if i < d { column[p * d + i] } else { 0.0 };
             let v: [f64; 3] = std::array::from_fn(|i| at(&samples.velocity, i));
             let x: [f64; 3] =

@@ -202,13 +202,4 @@ impl AffineField {
         };
         (0..dimension).map(formula).collect()
     }
-
-    /// Converts the field to other units: multiplies values by `value` and lengths by `length`.
-    pub(super) fn scaled(&self, value: f64, length: f64) -> Self {
-        Self {
-            value: self.value * value,
-            gradient: self.gradient.map(|row| row.map(|x| x * value / length)),
-            centre: self.centre * length,
-        }
-    }
 }

@@ -35,9 +35,6 @@ pub(super) const H: f64 = 0.125;
 /// Stiffness factor of a soft body; its forces are negligible even at nodes without real mass.
 pub(super) const SOFT: f64 = 1e-24;
 
-/// Names of the lower and the higher face of a box for each axis.
-pub(super) const FACES: [[&str; 2]; 3] = [["left", "right"], ["bottom", "top"], ["back", "front"]];
-
 /// Coefficient of friction of a Drucker-Prager soil.
 pub(super) const FRICTION: f64 = 0.3;
 
@@ -100,7 +97,7 @@ pub(super) struct BoxScene {
     pub(super) dt: f64,
 }
 
-/// Parts of a scene that few examinations need. They are not converted by [`BoxScene::scaled`].
+/// Parts of a scene that few examinations need.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Extras {
     /// Names of faces and their conditions in suite notation, for conditions with a value.
@@ -228,24 +225,20 @@ impl BoxScene {
         ((lambda + 2.0 * mu) / self.density).sqrt()
     }
 
-    /// Multiplies all lengths, times and masses of the scene by these factors.
-    pub(super) fn scaled(&self, length: f64, time: f64, mass: f64) -> Self {
-        let by = |all: &[f64]| all.iter().map(|x| x * length).collect::<Vec<f64>>();
-        let volume = (0..self.dimension).fold(1.0, |product, _| product * length);
-        let gravity = self.gravity.as_ref();
-        Self {
-            h: self.h * length,
-            body: (by(&self.body.0), by(&self.body.1)),
-            grid: (by(&self.grid.0), by(&self.grid.1)),
-            young: self.young * mass * length * length / (time * time * volume),
-            strength: self.strength * mass * length * length / (time * time * volume),
-            density: self.density * mass / volume,
-            velocity: self.velocity.scaled(length / time, length),
-            displacement: self.displacement.scaled(length, length),
-            gravity: gravity.map(|g| g.iter().map(|g| g * length / (time * time)).collect()),
-            dt: self.dt * time,
-            ..self.clone()
+    /// Multiplies all lengths of a scene without displacements and loads by this factor. Times and
+    /// the density remain.
+    pub(super) fn scaled(mut self, length: f64) -> Self {
+        let (body, grid) = (&mut self.body, &mut self.grid);
+        for end in [&mut body.0, &mut body.1, &mut grid.0, &mut grid.1] {
+            for x in end.iter_mut() {
+                *x *= length;
+            }
         }
+        self.h *= length;
+        self.young *= length * length;
+        self.velocity.value *= length;
+        self.velocity.centre *= length;
+        self
     }
 
     fn material(&self) -> String {

@@ -5,6 +5,7 @@ use super::translation::VELOCITY;
 use crate::testing::doctor::finding::{LIGHT_NODES, MASS_THRESHOLD};
 use crate::testing::doctor::motion::{CHANGED, uniform};
 use crate::testing::doctor::prelude::*;
+use crate::testing::doctor::scene::Extras;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "faces",
@@ -89,7 +90,14 @@ fn rounding_remark(seen: String) -> SolverFinding {
 /// steps. It shows the rounding of the positions, which is large if they have an offset.
 pub(super) fn position_rounding(patient: &Patient<'_>, scene: &BoxScene) -> Result<f64, Hindrance> {
     let velocity = scene.h / (24.0 * scene.dt) * Vector3::x();
-    let rigid = BoxScene { steps: 8, velocity: AffineField::uniform(velocity), ..scene.soft() };
+    let rigid = BoxScene {
+        steps: 8,
+        velocity: AffineField::uniform(velocity),
+        gravity: None,
+        faces: Vec::new(),
+        extras: Extras::default(),
+        ..scene.soft()
+    };
     let course = patient.run(&rigid)?;
     let error = |k: usize| course.farthest(displacement, k, course.times[k] * velocity);
     Ok((1..=course.last()).map(error).fold(0.0, f64::max))

@@ -16,10 +16,10 @@ mod rest;
 mod start;
 mod start_gradient;
 mod stress;
+mod symmetry;
 mod traction;
 mod transfer;
 mod translation;
-mod units;
 mod vibration;
 mod walls;
 
@@ -54,7 +54,7 @@ pub(super) const ALL: &[Examination] = &[
     bodies::EXAMINATION,
     friction::CONTACT,
     periodic::ENDS,
-    units::EXAMINATION,
+    symmetry::EXAMINATION,
     load_steps::EXAMINATION,
 ];
 

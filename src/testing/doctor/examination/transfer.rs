@@ -65,7 +65,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let plain = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| scene(kind, &STRETCH))?;
     let kind = (plain.dimension, plain.law);
     let turning = (kind.0 > 1).then(|| scene(kind, &ROTATION));
-    let small = plain.scaled(0.125, 1.0, 1.0);
+    let small = plain.clone().scaled(0.125);
     let scenes: Vec<BoxScene> =
         std::iter::once(plain.clone()).chain(turning).chain([small]).collect();
     let courses = patient.run_all(&scenes)?;

@@ -44,7 +44,7 @@ pub(crate) fn spreading(kind: Kind) -> BoxScene {
     // With these cells and particle numbers, each defect changes the moduli by another factor.
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], 12.0, 3.0);
     scene.ppc = if kind.0 == 3 { 2 } else { 3 };
-    let mut scene = scene.scaled(1.2, 1.0, libm::pow(1.2, kind.0 as f64));
+    let mut scene = scene.scaled(1.2);
     scene.velocity = scene.linear(|i, j| [[STRETCH, SHEAR, 0.0], [0.0; 3], [0.0; 3]][i][j]);
     scene.young = 3.1;
     scene.with_waves(TRAVEL, STEPS)
