@@ -7,7 +7,7 @@ use clap::Args;
 use mpm_verify::external::{
     LevelProblem, ProblemFormat, ProblemGrid, ProblemMaterial, ResultLevel,
 };
-use mpm_verify::study::{exact_state, level_problem, result_levels, statement};
+use mpm_verify::study::{exact_state, level_problem, needs_of_suite, result_levels, statement};
 use mpm_verify::subject::Precision;
 use mpm_verify::suite::{Extent, ExternalMethod, Suite};
 use std::fmt::Display;
@@ -92,7 +92,8 @@ fn write_all(folder: &Path, args: &ProblemArgs) -> Result<Status, CommandError> 
         return Err(CommandError::option("--all", path.display(), reason));
     }
     for (path, bytes) in &files {
-        let written = fs::create_dir_all(folder).and_then(|()| fs::write(path, bytes));
+        let made = fs::create_dir_all(folder.join("results"));
+        let written = made.and_then(|()| fs::write(path, bytes));
         written.map_err(|error| CommandError::option("--all", path.display(), error))?;
     }
     output::print(&format!("wrote {}\n", folder.join("README.md").display()));
@@ -100,7 +101,7 @@ fn write_all(folder: &Path, args: &ProblemArgs) -> Result<Status, CommandError> 
 }
 
 fn readme(suite: &Suite, levels: &[ResultLevel], folder: &Path, args: &ProblemArgs) -> String {
-    let mut text = format!("# {}\n\n## Problem\n\n", suite.title);
+    let mut text = format!("# {}\n\n{}\n\n## Problem\n\n", suite.title, suite.about.trim_end());
     for (key, value) in statement(suite) {
         text += &format!("- {key}: {value}\n");
     }
@@ -114,26 +115,45 @@ fn readme(suite: &Suite, levels: &[ResultLevel], folder: &Path, args: &ProblemAr
     }
     text += "\n## Levels\n\n";
     for ResultLevel { name, problem, .. } in levels {
-        let LevelProblem { grid, particles, dt, steps, .. } = problem;
+        let LevelProblem { grid, particles, dt, steps, instants, .. } = problem;
         let ProblemGrid { origin, h, cells, periodic, .. } = grid;
         let axes = ["x", "y", "z"].into_iter().zip(periodic);
-        let along = axes.filter(|(_, is_periodic)| **is_periodic);
-        let along: String = along.map(|(axis, _)| format!(", periodic along {axis}")).collect();
+        let along: String = axes
+            .filter(|(_, is_periodic)| **is_periodic)
+            .flat_map(|(axis, _)| [", periodic along ", axis])
+            .collect();
         text += &format!(
             "- {name}.{}: {} particles; grid of {} cells of {h} m, lowest corner ({}) m{along}; \
-             {steps} steps of {dt} s; results at t = {} s\n",
+             {steps} steps of {dt} s; results after steps {}, at t = {} s\n",
             args.format.name(),
             particles.len(),
             joined(cells, " x "),
             joined(origin, ", "),
+            joined(instants, ", "),
             joined(&problem.times(), ", "),
         );
     }
+    text += &format!("\nRequired columns of the results: {}\n", columns(suite, levels));
     let from = folder.join("results");
     let [suite, from] = [&args.suite, &from].map(|path| path.to_string_lossy());
-    let words = ["mpm-verify", "judge", &suite, "--from", &from].into_iter();
+    let words = ["mpm-verify", "judge", &suite, "--from", &from, "--gate"].into_iter();
     let command = shlex::try_join(words.chain(args.full.then_some("--full"))).unwrap_or_default();
     text + &include_str!("results.txt").replace("COMMAND", &command)
+}
+
+/// Lists the columns that the results of a suite need.
+fn columns(suite: &Suite, levels: &[ResultLevel]) -> String {
+    let needs = needs_of_suite(suite).unwrap_or_default();
+    let axes = &["x", "y", "z"][..needs.dimension.min(3)];
+    let has_times = levels.iter().any(|level| level.problem.instants.len() > 1);
+    let mut names: Vec<String> = has_times.then(|| "t".to_owned()).into_iter().collect();
+    names.extend(axes.iter().map(|axis| axis.to_uppercase()));
+    names.extend(axes.iter().map(|axis| format!("u_{axis}")));
+    if needs.velocity {
+        names.extend(axes.iter().map(|axis| format!("v_{axis}")));
+    }
+    names.extend(needs.columns.iter().map(|quantity| format!("all components of {quantity}")));
+    joined(&names, ", ")
 }
 
 fn joined(values: &[impl Display], separator: &str) -> String {

@@ -179,8 +179,11 @@ fn problem_does_not_replace_other_files() {
     for _ in 0..2 {
         folder.accepted(&["problem", "bar.yaml", "--all", "levels", "--format", "json"]);
     }
-    assert_eq!(folder.files("levels"), ["1.json", "2.json", "README.md"]);
+    assert_eq!(folder.files("levels"), ["1.json", "2.json", "README.md", "results"]);
     let line = "- 2.json: 4 particles; grid of 5 cells of 0.5 m, lowest corner (0) m;";
-    let command = "mpm-verify judge bar.yaml --from levels/results\n";
-    assert_contains(&folder.read("levels/README.md"), &[line, "t = 0.001, 0.002 s", command]);
+    let command = "mpm-verify judge bar.yaml --from levels/results --gate\n";
+    assert_contains(
+        &folder.read("levels/README.md"),
+        &[line, "after steps 1, 2, at t = 0.001, 0.002 s", "results: t, X, u_x\n", command],
+    );
 }
