@@ -51,6 +51,8 @@ macro_rules! flags {
             pub small_strain: bool,
             /// Whether the verdict depends on the velocities.
             pub velocity: bool,
+            /// Whether the verdict depends on the number of particles that change cells.
+            pub crossings: bool,
             $(#[doc = $need] pub $name: bool,)+
             /// Parts of the scene that the protocol does not support.
             pub beyond: Vec<&'static str>,
@@ -330,6 +332,7 @@ mod tests {
             gradients: vec!["young"],
             small_strain: true,
             velocity: true,
+            crossings: true,
             manufactured: true,
             initial_deformation: true,
             several_bodies: true,

@@ -122,6 +122,9 @@ impl SolverFactory for ResultFolder {
         if needs.velocity && !self.has_velocity() {
             lacking.push("columns: velocity".to_owned());
         }
+        if needs.crossings {
+            lacking.push("the number of particles that change cells".to_owned());
+        }
         lacking
     }
 

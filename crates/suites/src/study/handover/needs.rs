@@ -7,6 +7,7 @@ use crate::mpm::{MaterialParameter, MaterialPlan, Range};
 use crate::study::kind::study;
 use crate::study::setup::dispatch::subject;
 use crate::subject::{PlaneState, Subject, SubjectError};
+use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::method::{ExternalMethod, GateTerms, LawChoice};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, Suite};
@@ -20,6 +21,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         manufactured: plan.manufactured().is_some(),
         initial_deformation: starts_deformed(plan),
         load_steps: plan.steps == StepKind::Load,
+        crossings: plan.crossing_levels == CrossingLevels::Excluded,
         velocity: plan.of == Quantity::Velocity
             || plan.of.is_sum()
             || plan.exact.as_ref().is_some_and(|exact| exact.at_rest),
