@@ -7,7 +7,8 @@ use mpm_verify::study::{Runner, lacking, level_problem, under};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, ExternalMethod, GateTerms, Suite};
-use mpm_verify::verify::CaseOutcome;
+use mpm_verify::verify::{CaseOutcome, CaseResult};
+use rayon::prelude::*;
 use rstest::rstest;
 
 /// Second-order finite differences with one unknown at each particle: `u_tt = c^2 u_XX`.
@@ -192,4 +193,83 @@ fn only_isotropic_elastic_laws_replace_a_law_at_small_strains(
     let own = suite.convergence().expect("a convergence study").scene.material.parameters();
     assert_eq!(plan.scene.material.parameters(), own);
     assert_eq!(plan.scene.material.name(), if replaces { law } else { "linear_elastic" });
+}
+
+/// A solver whose state never changes.
+struct Motionless;
+
+struct InitialState(Samples);
+
+impl SolverFactory for Motionless {
+    fn name(&self) -> &'static str {
+        "motionless"
+    }
+
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+        let start = &problem.particles;
+        let displaced = start.position.iter().zip(&start.reference_position);
+        let samples = Samples {
+            dimension: problem.dimension,
+            label: start.reference_position.clone(),
+            displacement: displaced.map(|(x, label)| x - label).collect(),
+            velocity: start.velocity.clone(),
+            weight: start.reference_volume.clone(),
+            stress: start.stress.clone(),
+            ..Samples::default()
+        };
+        Ok(Box::new(InitialState(samples)))
+    }
+}
+
+impl Subject for InitialState {
+    fn step(&mut self, _: f64) -> Result<(), Failure> {
+        Ok(())
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        samples.clone_from(&self.0);
+    }
+
+    fn counters(&self) -> RunCounters {
+        RunCounters::new(0)
+    }
+}
+
+/// Suites whose judged quantity does not change, or has its initial value at the end.
+const UNCHANGED: [&str; 16] = [
+    "geostatic-column",
+    "geostatic-drucker-prager",
+    "geostatic-mohr-coulomb",
+    "geostatic-slope",
+    "geostatic-slope-3d",
+    "load-steps-geostatic-drucker-prager",
+    "pressurised-cylinder",
+    "pressurised-cylinder-in-plane",
+    "rotating-block",
+    "spinning-disk",
+    "sticking-block",
+    "sticking-layers",
+    "time-step-auto",
+    "translating-stressed-bar",
+    "translating-stressed-plate",
+    "vibrating-bar-long",
+];
+
+/// A suite whose displacement vanishes at the end would accept a solver that does nothing.
+#[test]
+fn motionless_solver_passes_no_other_suite() {
+    let passes = |name: &&str| {
+        let source = embedded::source(name).expect("a suite").expect("a text").trusted();
+        let suite = Suite::load(&source).expect("a sound suite");
+        let Some(judged) = under(&suite, &Motionless, true) else { return false };
+        if judged.convergence().is_none() {
+            return false;
+        }
+        let runner = Runner::over(&judged, Extent::Usual).judging(&Motionless);
+        let cases = (0..judged.case_names().len()).map(|case| runner.case(case, &|| ()));
+        cases.into_iter().any(|case| case.result() == CaseResult::Pass)
+    };
+    let names: Vec<&str> = embedded::names().collect();
+    let found: Vec<&str> = names.into_par_iter().filter(passes).collect();
+    assert_eq!(found, UNCHANGED);
 }
