@@ -1,10 +1,9 @@
 //! Compares two exact solutions of one problem: the sum of images that the suites state, with the
 //! eigenfunction series of Wobbes & Tielen (2015) and with values computed by hand.
 
+use crate::common::built_in_suite;
 use approx::assert_abs_diff_eq;
-use mpm_verify::embedded;
 use mpm_verify::exact::Truth;
-use mpm_verify::suite::Suite;
 use rstest::rstest;
 use std::f64::consts::{PI, SQRT_2};
 
@@ -15,8 +14,7 @@ fn displacement(name: &str, x: f64, t: f64) -> f64 {
 
 /// Returns the displacements by the exact solution of an embedded suite.
 fn displacements<const D: usize>(name: &str, place: [f64; D], t: f64) -> [f64; D] {
-    let source = embedded::source(name).expect("an embedded suite").expect("a sound text");
-    let suite = Suite::load(&source).expect("a sound suite");
+    let suite = built_in_suite(name);
     let plan = suite.convergence().expect("a convergence study");
     let mut u = [0.0; D];
     plan.exact.as_ref().expect("an exact solution").motion.displacement(&place, t, &mut u);

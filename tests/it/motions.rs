@@ -1,13 +1,12 @@
 //! Motions of benchmark problems in several dimensions, stated by formulas: body forces compared
 //! with published values, a wave without force, and a start with a deformation.
 
+use crate::common::valid_suite;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use mpm_verify::exact::formula::{Expr, Formula, Scope};
 use mpm_verify::exact::{InitialStress, Motion, NeoHookeanLaw, Problem, Truth};
 use mpm_verify::study::Runner;
 use mpm_verify::subject::PlaneState;
-use mpm_verify::suite::Suite;
-use mpm_verify::suite::yaml::Source;
 use rstest::rstest;
 
 const NAMES: [&str; 3] = ["X", "Y", "Z"];
@@ -189,8 +188,7 @@ expect:
     finest_pair: [1.95, 2.05]
     because: order 2 in space and, started half a step back, in time
 ";
-    let source = Source::from_text("deformed.yaml", &text).expect("a sound text");
-    let suite = Suite::load(&source).expect("a sound suite");
+    let suite = valid_suite(&text);
     for case in Runner::new(&suite).run(&|| ()).cases {
         assert!(case.passed(), "{}: {:?}", case.case, case.unmet);
     }

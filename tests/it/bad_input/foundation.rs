@@ -1,11 +1,11 @@
 //! Loads that depend on the displacement: invalid names, and exact solutions for another load.
 
-use super::{load, refused};
-use mpm_verify::embedded;
+use super::refused;
+use crate::common::{built_in_source, valid_suite};
 use rstest::rstest;
 
 fn bar() -> String {
-    embedded::source("elastic-foundation").expect("a suite").expect("a text").text().to_owned()
+    built_in_source("elastic-foundation").text().to_owned()
 }
 
 #[rstest]
@@ -47,5 +47,5 @@ fn a_suite_without_such_a_load_may_declare_the_name() {
     let text = bar().replace("-kf*ux/rho", "-kf*v0/omega*sin(k*X)*sin(omega*t)/rho");
     let text = text.replace("  v0: 1e-4", "  ux: 2\n  v0: 1e-4");
     let text = text.replace("until: \"pi/omega\"", "until: \"ux/2*pi/omega\"");
-    load(&text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    valid_suite(&text);
 }

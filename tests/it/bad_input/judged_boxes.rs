@@ -1,7 +1,8 @@
 //! Boxes that judged errors are restricted to: their place, and the waves that reach them.
 
 use super::samples::{BAR, PLATE};
-use super::{Edits, load, refused};
+use super::{Edits, refused};
+use crate::common::valid_suite;
 use rstest::rstest;
 
 const EXACT: &str =
@@ -106,9 +107,7 @@ fn box_that_no_wave_reaches_is_valid(
 ) {
     let within = format!("{{norm: rms, within: {{from: {from}, to: {to}}}}}");
     let text = BAR.replace("{norm: rms}", &within).replace(condition, instead);
-    if let Err(diagnostic) = load(&text) {
-        panic!("{diagnostic}\n{text}");
-    }
+    valid_suite(&text);
 }
 
 #[test]

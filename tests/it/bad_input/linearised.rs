@@ -2,12 +2,12 @@
 //! default tolerance.
 
 use super::refused;
-use mpm_verify::embedded;
+use crate::common::built_in_source;
 use rstest::rstest;
 
 /// Creates a column of water. Its relative residual is 2e-6, and its tolerance is 5e-6.
 fn column() -> String {
-    embedded::source("acoustic-column").expect("a suite").expect("a text").text().to_owned()
+    built_in_source("acoustic-column").text().to_owned()
 }
 
 /// The lines that state the tolerance.

@@ -1,7 +1,8 @@
 //! Forces on a set of a body that is not a box: solutions for a wrong volume of the set, and sets
 //! outside the body.
 
-use super::{load, refused};
+use super::refused;
+use crate::common::valid_suite;
 use rstest::rstest;
 
 /// Creates a body in translation with a constant acceleration.
@@ -55,7 +56,7 @@ fn a_force_is_that_on_the_volume_of(
     #[case] body: &str,
     #[case] volume: &str,
 ) {
-    load(&pulled(dimension, body, volume)).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    valid_suite(&pulled(dimension, body, volume));
     let other = [("displacement: [", "displacement: [▸")];
     let another = pulled(dimension, body, &format!("1.001*{volume}"));
     refused(&another, &other, &["equation of motion in X"]);
@@ -67,7 +68,7 @@ fn a_set_may_be_far_larger_than_the_body() {
     let text = pulled(2, DISK, "pi");
     let all = "{all: {box: {from: [-2, -2], to: [2, 2]}}}";
     let text = text.replace(all, "{all: {box: {from: [-1e8, -1e8], to: [1e8, 1e8]}}}");
-    load(&text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    valid_suite(&text);
 }
 
 #[rstest]

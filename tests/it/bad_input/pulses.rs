@@ -1,7 +1,8 @@
 //! Pulses much narrower than the body: correct solutions are accepted, and wrong ones are refused.
 
 use super::load;
-use crate::common::folder::flat;
+use crate::common::folder::{assert_contains, flat};
+use crate::common::valid_suite;
 use rstest::rstest;
 
 const GAUSS: &str = "exp(-(s/w)^2)";
@@ -53,9 +54,7 @@ fn correct_pulse_is_accepted(
 ) {
     let bar = split(shape, w, RIGHT);
     let text = if dimension == 1 { bar } else { in_the_plane(&bar) };
-    if let Err(diagnostic) = load(&text) {
-        panic!("{diagnostic}");
-    }
+    valid_suite(&text);
 }
 
 #[rstest]
@@ -95,9 +94,7 @@ fn a_manufactured_pulse_is_accepted(#[values(GAUSS, WINDOW)] shape: &str) {
         .replace("exact:\n  equation: small_strain\n", "manufactured:\n")
         .replace("linear_elastic", "neo_hookean")
         .replace(&format!("\"{motion}\""), &format!("\"{motion}\", \"A*f(X - 0.8)*f(Y - 1)\""));
-    if let Err(diagnostic) = load(&text) {
-        panic!("{diagnostic}");
-    }
+    valid_suite(&text);
 }
 
 /// Creates a pulse that crosses from a bar with E = 1 into one with E = 4, which transmits 2/3 of
@@ -125,18 +122,17 @@ fn two_bars(w: f64, transmitted: &str) -> String {
 
 #[rstest]
 fn a_pulse_in_two_materials_is_accepted(#[values(0.03, 0.01)] w: f64) {
-    if let Err(diagnostic) = load(&two_bars(w, "2/3")) {
-        panic!("{diagnostic}");
-    }
+    valid_suite(&two_bars(w, "2/3"));
 }
 
 #[rstest]
 fn wrong_transmission_is_refused_at_the_interface(#[values(0.03, 0.01)] w: f64) {
     let diagnostic = load(&two_bars(w, "0.66")).expect_err("a jump at the joint");
     let diagnostic = diagnostic.one_line();
-    for part in ["where two bodies meet along X, their ", "off by ", " allowed)"] {
-        assert!(diagnostic.contains(part), "no `{part}` in\n{diagnostic}");
-    }
+    assert_contains(
+        &diagnostic,
+        &["where two bodies meet along X, their ", "off by ", " allowed)"],
+    );
 }
 
 /// A difference that six digits do not show is printed with more digits, next to the tolerance.

@@ -1,6 +1,7 @@
 //! Spectrum studies: invalid scenes, waves and expectations.
 
 use super::{Edits, refused};
+use crate::common::valid_suite;
 use rstest::rstest;
 
 /// A valid spectrum study.
@@ -141,6 +142,6 @@ fn a_spectrum(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 fn unchanged_suite_is_valid() {
     let shifted = WAVE.replace("ppc: 2}", "ppc: 2, shift: [-0.2]}").replace("[8, 16]", "4");
     for text in [WAVE, &shifted] {
-        super::load(text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+        valid_suite(text);
     }
 }

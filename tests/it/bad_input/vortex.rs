@@ -5,6 +5,7 @@
 //! of the reference position, with one tangential term of the wrong sign.
 
 use super::{Edits, load, refused};
+use crate::common::valid_suite;
 use rstest::rstest;
 
 const VORTEX: &str = r#"suite: vortex
@@ -72,9 +73,7 @@ const PUBLISHED: &str = r#"  radial(r, a, s): "(stretch(r, s) - centripetal(r, s
 #[case::in_the_current_basis(CURRENT)]
 #[case::in_the_reference_basis(PUBLISHED)]
 fn correct_force_is_accepted(#[case] force: &str) {
-    if let Err(diagnostic) = load(&VORTEX.replace("FORCE", force)) {
-        panic!("{diagnostic}");
-    }
+    valid_suite(&VORTEX.replace("FORCE", force));
 }
 
 /// docs/wrong-force.md quotes this error.

@@ -69,8 +69,7 @@ fn invalid_option_values_are_refused_with_the_expected_form() {
 #[test]
 fn advice_for_a_stray_negative_number_works() {
     let folder = Folder::with("bar.yaml", BAR);
-    let answer = folder.call(&["run", "bar.yaml", "-1"]);
-    assert_eq!(answer.code, BAD_INPUT);
+    let answer = folder.call(&["run", "bar.yaml", "-1"]).ended(BAD_INPUT);
     insta::assert_snapshot!(answer.errors, @"
     error: unexpected argument '-1' found
 

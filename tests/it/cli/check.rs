@@ -41,8 +41,7 @@ const ACKNOWLEDGED: &str =
 #[test]
 fn an_acknowledged_warning_is_not_printed() {
     let folder = Folder::with("bar.yaml", long_step(""));
-    let warned = folder.call(&["check", "bar.yaml", "--strict"]);
-    assert_eq!(warned.code, FAILED);
+    let warned = folder.call(&["check", "bar.yaml", "--strict"]).ended(FAILED);
     insta::assert_snapshot!(warned.errors, @r#"
     warning: with 4 cells the time step is 1.30 times the time in which a wave crosses a cell
       --> bar.yaml:19:24
@@ -61,8 +60,7 @@ fn an_acknowledged_warning_is_not_printed() {
     1 warning, 1 note
     "#);
     folder.write("bar.yaml", long_step(ACKNOWLEDGED));
-    let found = folder.call(&["check", "bar.yaml", "--strict"]);
-    assert_eq!(found.code, SOUND, "{}", found.errors);
+    let found = folder.call(&["check", "bar.yaml", "--strict"]).ended(SOUND);
     assert!(!found.errors.contains("warning"), "{}", found.errors);
 }
 
@@ -70,8 +68,7 @@ fn an_acknowledged_warning_is_not_printed() {
 fn an_acknowledgement_without_its_warning_is_a_warning() {
     let folder =
         Folder::with("bar.yaml", long_step(&ACKNOWLEDGED.replace("time_step", "end_on_node")));
-    let found = folder.call(&["check", "bar.yaml", "--strict"]);
-    assert_eq!(found.code, FAILED);
+    let found = folder.call(&["check", "bar.yaml", "--strict"]).ended(FAILED);
     let (of_the_step, own) = found.errors.rsplit_once("\nwarning: ").expect("two warnings");
     assert_contains(&flat(of_the_step), &["times the time in which a wave crosses a cell"]);
     insta::assert_snapshot!(own, @"
@@ -100,7 +97,6 @@ fn an_acknowledgement_without_its_warning_is_a_warning() {
 #[case::a_bare_name("[time_step]", "expected a map")]
 fn an_acknowledgement_is_refused_with(#[case] entries: &str, #[case] words: &str) {
     let folder = Folder::with("bar.yaml", long_step(&format!("acknowledge: {entries}")));
-    let found = folder.call(&["check", "bar.yaml"]);
-    assert_eq!(found.code, BAD_INPUT);
+    let found = folder.call(&["check", "bar.yaml"]).ended(BAD_INPUT);
     assert_contains(&found.errors, &[words]);
 }

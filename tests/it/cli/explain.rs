@@ -34,8 +34,7 @@ fn a_suite_that_is_built_in(#[case] name: &str, #[case] words: &[&str]) {
 #[test]
 fn local_suite_is_explained() {
     let folder = Folder::with("bar.yaml", BAR);
-    let found = folder.call(&["explain", "bar.yaml"]);
-    assert_eq!(found.code, SOUND, "{}", found.errors);
+    let found = folder.call(&["explain", "bar.yaml"]).ended(SOUND);
     insta::assert_snapshot!(found.out, @"
     short-bar: Short bar
 

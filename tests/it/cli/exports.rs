@@ -90,8 +90,7 @@ fn a_latex_table_has_errors_and_orders() {
 fn junit_has_one_test_for_each_case() {
     let folder = Folder::with("bar.yaml", ambitious());
     folder.write("good.yaml", BAR);
-    let answer = folder.call(&["run", "bar.yaml", "good.yaml", "--junit", "out/junit.xml"]);
-    assert_eq!(answer.code, FAILED);
+    folder.call(&["run", "bar.yaml", "good.yaml", "--junit", "out/junit.xml"]).ended(FAILED);
     let xml = folder.read("out/junit.xml");
     let report = quick_junit::Report::deserialize_from_str(&xml).unwrap();
     assert_eq!((report.tests, report.failures, report.test_suites.len()), (4, 2, 2), "{xml}");
@@ -111,8 +110,7 @@ fn junit_has_no_forbidden_characters() {
 while read -r m; do echo '{"type":"cannot","reason":"no \ufffe, no \uffff, no \u0001"}'; done"#;
     folder.write("solver.sh", script);
     let run = ["run", "bar.yaml", "--solver", "sh solver.sh", "--gate", "--junit", "junit.xml"];
-    let answer = folder.call(&run);
-    assert_eq!(answer.code, FAILED, "{}", answer.errors);
+    folder.call(&run).ended(FAILED);
     let xml = folder.read("junit.xml");
     quick_junit::Report::deserialize_from_str(&xml).unwrap();
     assert!(xml.contains("no \u{fffd}, no \u{fffd}, no "), "{xml}");
@@ -123,8 +121,7 @@ while read -r m; do echo '{"type":"cannot","reason":"no \ufffe, no \uffff, no \u
 fn files_that_cannot_be_written_are_named_before_the_run() {
     let folder = Folder::with("bar.yaml", BAR);
     folder.write("folder/file", "");
-    let answer = folder.call(&["run", "bar.yaml", "--junit", "folder"]);
-    assert_eq!(answer.code, BAD_INPUT);
+    let answer = folder.call(&["run", "bar.yaml", "--junit", "folder"]).ended(BAD_INPUT);
     insta::assert_snapshot!(answer.errors, @"error: --junit folder: this is a folder");
     assert_eq!(answer.out, "");
 }
@@ -132,8 +129,7 @@ fn files_that_cannot_be_written_are_named_before_the_run() {
 #[test]
 fn a_folder_of_results_has_tables_and_sources_of_figures() {
     let folder = Folder::with("bar.yaml", BAR);
-    let answer = folder.call(&["run", "bar.yaml", "--out", "out"]);
-    assert_eq!(answer.code, SOUND, "{}", answer.errors);
+    folder.call(&["run", "bar.yaml", "--out", "out"]).ended(SOUND);
     for figure in ["short-bar", "short-bar-work-transfers"] {
         let tex = folder.read(&format!("out/{figure}.tex"));
         assert!(tex.ends_with("\\end{tikzpicture}\n\\end{document}\n"), "{tex}");
@@ -175,7 +171,6 @@ fn titles_and_labels_change_only_tables_and_figures() {
 fn invalid_labels_are_refused(#[case] options: &str, #[case] error: &str) {
     let folder = Folder::with("bar.yaml", BAR);
     let options: Vec<&str> = options.split('|').collect();
-    let answer = folder.call(&[&["run", "bar.yaml"], &options[..]].concat());
-    assert_eq!((answer.code, answer.out.as_str()), (BAD_INPUT, ""));
-    assert_eq!(answer.errors.lines().next(), Some(error), "{}", answer.errors);
+    let errors = folder.refused(&[&["run", "bar.yaml"], &options[..]].concat());
+    assert_eq!(errors.lines().next(), Some(error), "{errors}");
 }

@@ -175,8 +175,7 @@ fn check_reports_valid_and_invalid_suites() {
 
 #[test]
 fn built_in_suites_have_no_errors_or_warnings() {
-    let answer = Folder::new().call(&["check", "--strict"]);
-    assert_eq!(answer.code, SOUND, "{}", answer.errors);
+    let answer = Folder::new().call(&["check", "--strict"]).ended(SOUND);
     assert!(answer.out.lines().all(|line| line.contains(": sound, ")), "{}", answer.out);
     assert!(!answer.errors.contains("warning: "), "{}", answer.errors);
 }
@@ -233,8 +232,7 @@ fn more_similar_suite_is_suggested_instead_of_a_command() {
 
 #[test]
 fn unknown_name_gets_a_hint_to_list() {
-    let found = Folder::new().call(&["check", "zzz"]);
-    assert_eq!(found.code, BAD_INPUT);
+    let found = Folder::new().call(&["check", "zzz"]).ended(BAD_INPUT);
     assert_contains(&found.errors, &["`mpm-verify list` shows the "]);
 }
 

@@ -19,8 +19,8 @@ const TOO_FEW: &str = "  - verdict: too_few_levels\n";
 
 fn case(text: &str, arguments: &[&str], code: i32) -> Value {
     let folder = Folder::with("bar.yaml", text);
-    let found = folder.call(&[&["run", "bar.yaml", "--format", "json"], arguments].concat());
-    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    let found =
+        folder.call(&[&["run", "bar.yaml", "--format", "json"], arguments].concat()).ended(code);
     let document: Value = serde_json::from_str(&found.out).expect("one document");
     document["suites"][0]["cases"][0].clone()
 }

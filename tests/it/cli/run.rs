@@ -58,8 +58,7 @@ fn violated_expectation_points_at_its_entry() {
     let expect = "expect:\n  - case: 'mpm-*'\n    because: theory\n    order: [2.9, 3.1]\n  \
                   - case: ['fem-*']\n    because: theory\n    verdict: divergent\n";
     let folder = Folder::with("bar.yaml", format!("{suite}{expect}").replace("short", "long"));
-    let found = folder.call(&["run", "bar.yaml", "--brief"]);
-    assert_eq!(found.code, FAILED, "{}", found.errors);
+    let found = folder.call(&["run", "bar.yaml", "--brief"]).ended(FAILED);
     let line = suite.lines().count() + 4;
     let (first, second) = (format!("bar.yaml:{line}:5"), format!("bar.yaml:{}:5", line + 3));
     assert_contains(
@@ -86,8 +85,7 @@ fn violated_expectation_points_at_its_entry() {
 fn invalid_file_does_not_suppress_other_reports() {
     let folder = Folder::with("bad.yaml", mistaken());
     folder.write("good.yaml", BAR);
-    let found = folder.call(&["run", "bad.yaml", "good.yaml", "odometer"]);
-    assert_eq!(found.code, BAD_INPUT);
+    let found = folder.call(&["run", "bad.yaml", "good.yaml", "odometer"]).ended(BAD_INPUT);
     assert_contains(&found.out, &["  fem-linear-lumped  ", "  mpm-linear-flip-musl  pass "]);
     insta::assert_snapshot!(found.errors, @"
     error: unknown key `dimensions`
@@ -105,8 +103,7 @@ fn invalid_file_does_not_suppress_other_reports() {
 
 #[test]
 fn failed_case_does_not_affect_other_cases() {
-    let found = Folder::new().call(&["run", "steffen-bar"]);
-    assert_eq!(found.code, SOUND, "the suite expects the failure");
+    let found = Folder::new().call(&["run", "steffen-bar"]).ended(SOUND);
     let flat = flat(&found.out);
     assert_contains(
         &flat,
@@ -233,8 +230,7 @@ fn a_resumed_run_prints_the_same_bytes() {
     for file in folder.files("plain") {
         assert_eq!(folder.read(&format!("plain/{file}")), folder.read(&format!("resumed/{file}")));
     }
-    let none = folder.call(&["run", "bar.yaml", "--resume", "bar.yaml"]);
-    assert_eq!(none.code, BAD_INPUT);
+    let none = folder.call(&["run", "bar.yaml", "--resume", "bar.yaml"]).ended(BAD_INPUT);
     assert_contains(&none.errors, &["--resume bar.yaml"]);
 }
 
@@ -267,13 +263,11 @@ fn diagnose_requires_a_suite() {
 fn failed_cases_run_again() {
     let folder = Folder::with("bar.yaml", BAR);
     folder.write("open.yaml", ambitious());
-    let none = folder.call(&["run", "bar.yaml", "--last-failed"]);
-    assert_eq!(none.code, BAD_INPUT);
+    let none = folder.call(&["run", "bar.yaml", "--last-failed"]).ended(BAD_INPUT);
     assert_contains(&none.errors, &["--last-failed: no case of the last run in this folder fail"]);
     let both = ["run", "bar.yaml", "open.yaml", "--brief"];
     assert_eq!(folder.call(&both).code, FAILED);
-    let again = folder.call(&[&both[..], &["--last-failed"]].concat());
-    assert_eq!(again.code, FAILED);
+    let again = folder.call(&[&both[..], &["--last-failed"]].concat()).ended(FAILED);
     assert_contains(&again.out, &["1 suite, 2 cases: 2 FAIL\n"]);
     assert_eq!(folder.call(&["run", "bar.yaml", "-q"]).code, SOUND);
     assert_eq!(folder.call(&[&both[..], &["--last-failed"]].concat()).code, BAD_INPUT);
@@ -285,8 +279,7 @@ fn fail_fast_starts_no_further_suite() {
     folder.write("b.yaml", BAR);
     let arguments = ["run", "a.yaml", "b.yaml", "--jobs", "1", "--brief"];
     assert_contains(&folder.call(&arguments).out, &["2 suites, 4 cases: "]);
-    let found = folder.call(&[&arguments[..], &["--fail-fast"]].concat());
-    assert_eq!(found.code, FAILED);
+    let found = folder.call(&[&arguments[..], &["--fail-fast"]].concat()).ended(FAILED);
     assert!(!found.out.contains("short-bar::"), "{}", found.out);
     assert_contains(
         &found.errors,

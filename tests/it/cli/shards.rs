@@ -42,8 +42,7 @@ fn merged_parts_equal_one_run_byte_for_byte() {
 fn missing_result_fails_a_merge() {
     let folder = suites();
     in_parts(&folder, 3);
-    let found = folder.call(&["merge", "--from", "part-1", "--from", "part-2", "--brief"]);
-    assert_eq!(found.code, FAILED);
+    folder.call(&["merge", "--from", "part-1", "--from", "part-2", "--brief"]).ended(FAILED);
     let report = folder.call(&["merge", "--from", "part-1", "--from", "part-2"]);
     assert_contains(&report.out, &["no folder has the result of"]);
     let errors = folder.refused(&["merge", "--from", "part-9"]);
@@ -83,8 +82,7 @@ fn cases_are_selected_by_name() {
 fn json_list_has_the_predicted_costs() {
     let folder = suites();
     folder.write("verification/c.yaml", ambitious());
-    let found = folder.call(&["list", "--format", "json"]);
-    assert_eq!(found.code, SOUND);
+    let found = folder.call(&["list", "--format", "json"]).ended(SOUND);
     let listed: Value = serde_json::from_str(&found.out).expect("JSON");
     let suites = listed["suites"].as_array().expect("a list");
     let names: Vec<&str> = suites.iter().filter_map(|suite| suite["suite"].as_str()).collect();

@@ -15,8 +15,7 @@ fn unstable_step_is_used_with_a_warning() {
     // c = 10 m/s: 0.02 s is 0.8 h/c on the coarsest grid and 2.4 h/c on the finest.
     let text = bar("dt: 0.02, instants: 1").replace("until: 0.05", "until: 20");
     let folder = Folder::with("bar.yaml", text.split_once("expect:").expect("an expectation").0);
-    let found = folder.call(&["run", "bar.yaml", "--format", "json"]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = folder.call(&["run", "bar.yaml", "--format", "json"]).ended(SOUND);
     let warnings: Vec<&str> = warnings(&found.errors);
     assert_eq!(warnings.len(), 3, "{warnings:?}");
     let first = "warning: short-bar::mpm-linear-flip-musl, 6 cells: dt = 2.0000e-2 s is ";
@@ -89,8 +88,7 @@ fn rounded_step_of_a_short_run_is_reported() {
     let folder = Folder::new();
     let text = bar("dt: \"h/100\"").replace("until: 0.05", "until: 0.006");
     folder.write("bar.yaml", text.replace("verdict: failed", "order: [1.5, 2.4]"));
-    let found = folder.call(&["steps", "bar.yaml"]);
-    assert_eq!(found.code, FAILED);
+    let found = folder.call(&["steps", "bar.yaml"]).ended(FAILED);
     insta::assert_snapshot!(found.out, @"
     short-bar
       mpm-linear-flip-musl

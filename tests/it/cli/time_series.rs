@@ -39,8 +39,7 @@ fn last(series: &str) -> (Vec<Vec<u8>>, f64) {
 fn the_errors_of_the_particles_are_those_of_the_report() {
     let folder = Folder::with("bar.yaml", BAR);
     let arguments = ["run", "bar.yaml", "--case", "flip", "--vtu", "vtu", "--format", "json"];
-    let found = folder.call(&arguments);
-    assert_eq!(found.code, SOUND, "{}", found.errors);
+    let found = folder.call(&arguments).ended(SOUND);
     let all = series(&folder);
     assert!(all.len() == 1 && all[0].ends_with("short-bar/mpm-linear-flip-musl.12-cells.pvd"));
     let (files, end) = last(&all[0]);
@@ -66,8 +65,7 @@ fn the_errors_of_the_particles_are_those_of_the_report() {
 fn only_unexpected_results_are_written() {
     let folder = Folder::with("bars/short.yaml", BAR);
     folder.write("bars/ambitious.yaml", ambitious());
-    let found = folder.call(&["run", "bars", "--brief", "--vtu", "vtu"]);
-    assert_eq!(found.code, FAILED);
+    let found = folder.call(&["run", "bars", "--brief", "--vtu", "vtu"]).ended(FAILED);
     let all = series(&folder);
     assert_eq!(all.len(), 2, "{all:?}");
     for series in &all {
@@ -86,8 +84,7 @@ fn failed_run_is_written_up_to_its_failure() {
     let folder = Folder::new();
     let case = "mpm-linear-apic-usl";
     let words = ["run", "finite-strain-crossing", "--case", case, "--brief", "--vtu", "vtu"];
-    let found = folder.call(&[&words[..], &["--out", "out"]].concat());
-    assert_eq!(found.code, SOUND, "{}", found.errors);
+    folder.call(&[&words[..], &["--out", "out"]].concat()).ended(SOUND);
     let all = series(&folder);
     let (files, end) = last(&all[0]);
     // A period is 0.02 s.
@@ -99,8 +96,9 @@ fn failed_run_is_written_up_to_its_failure() {
 #[test]
 fn study_without_runs_is_refused_with_the_reason() {
     let folder = Folder::new();
-    let found = folder.call(&["run", "grid-crossing", "--case", "linear", "--brief", "--vtu", "v"]);
-    assert_eq!(found.code, SOUND);
+    let found = folder
+        .call(&["run", "grid-crossing", "--case", "linear", "--brief", "--vtu", "v"])
+        .ended(SOUND);
     insta::assert_snapshot!(found.errors, @"note: grid-crossing::mpm-linear: no output: its study has no runs to show");
 }
 
@@ -139,8 +137,7 @@ fn particle_files_contain_mean_and_deviatoric_stress() {
     let oedometer =
         include_str!("../../../verification/soils/oedometer-mohr-coulomb-mean-stress.yaml");
     let folder = Folder::with("soil.yaml", oedometer);
-    let found = folder.call(&["run", "soil.yaml", "--case", "usl", "--vtu", "vtu"]);
-    assert_eq!(found.code, SOUND, "{}", found.errors);
+    folder.call(&["run", "soil.yaml", "--case", "usl", "--vtu", "vtu"]).ended(SOUND);
     let (files, _) = last(&series(&folder)[0]);
     let [p, q] = ["p", "q"].map(|name| numbers(&files[0], name)[0]);
     let sigma = numbers(&files[0], "sigma");

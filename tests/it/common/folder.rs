@@ -15,6 +15,15 @@ pub(crate) struct Answer {
     pub(crate) errors: String,
 }
 
+impl Answer {
+    /// Asserts the exit status of the call.
+    #[track_caller]
+    pub(crate) fn ended(self, code: i32) -> Self {
+        assert_eq!(self.code, code, "{}{}", self.out, self.errors);
+        self
+    }
+}
+
 impl Folder {
     pub(crate) fn new() -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
@@ -97,13 +106,13 @@ pub(crate) fn without_files(out: &str) -> String {
     out.split_inclusive('\n').filter(|line| !line.starts_with("wrote ")).collect()
 }
 
-/// Asserts that `text` has all of `parts`.
-#[track_caller]
 /// Puts a text that was wrapped on one line.
 pub(crate) fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// Asserts that `text` has all of `parts`.
+#[track_caller]
 pub(crate) fn assert_contains(text: &str, parts: &[&str]) {
     for part in parts {
         assert!(text.contains(part), "no `{part}` in\n{text}");

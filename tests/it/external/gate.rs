@@ -1,57 +1,10 @@
 //! `run --gate`: each row of the table in `docs/gate.md`.
 
 use super::bar;
-use super::program::HELLO;
+use super::program::{folder_of as folder, solver_of as script};
 use crate::cli::{BAD_INPUT, BAR, FAILED, Folder, SOUND, on_one_grid};
-use crate::common::folder::{Answer, flat};
+use crate::common::folder::{Answer, assert_contains, flat};
 use rstest::rstest;
-
-/// A solver whose result is the exact solution of the bar times `1 + ERROR`, a formula in `h` (m)
-/// and the time step `d` (s).
-const OF_ERROR: &str = r#"
-read -r m; echo 'HELLO'
-read -r problem || exit 0
-case "$problem" in *'"bye"'*) exit 0;; esac
-echo '{"type":"ready"}'
-while read -r m; do
-    case "$m" in *'"bye"'*) exit 0;; esac
-    printf '%s\n%s\n' "$problem" "$m" | awk '
-        function number(name, rest) {
-            rest = substr($0, index($0, "\"" name "\":") + length(name) + 3)
-            return rest + 0
-        }
-        NR == 1 {
-            x = substr($0, index($0, "\"reference_position\":[") + 22)
-            n = split(substr(x, 1, index(x, "]") - 1), X, ",")
-            h = number("h")
-        }
-        NR == 2 {
-            pi = atan2(0, -1)
-            d = number("dt")
-            t = number("from") + number("steps") * d
-            for (p = 1; p <= n; p++) {
-                s = 1e-3 * sin(pi * X[p] / 2) * (1 + ERROR)
-                u = u (p > 1 ? "," : "") sprintf("%.17g", s * sin(5 * pi * t) / (5 * pi))
-                v = v (p > 1 ? "," : "") sprintf("%.17g", s * cos(5 * pi * t))
-            }
-            printf "{\"type\":\"state\",\"columns\":{\"displacement\":[%s],\"velocity\":[%s]}}\n", u, v
-        }'
-done
-"#;
-
-/// Creates the script of a solver whose relative error is `error`.
-fn script(error: &str) -> String {
-    OF_ERROR.replace("HELLO", HELLO).replace("ERROR", error)
-}
-
-/// Creates a folder with `bar.yaml`, and with a solver in `solver.sh` whose relative error is
-/// `error`.
-fn folder(error: &str) -> Folder {
-    let folder = Folder::new();
-    folder.write("bar.yaml", bar());
-    folder.write("solver.sh", script(error));
-    folder
-}
 
 /// Runs the gate on `targets` with `options`.
 fn gate(folder: &Folder, targets: &[&str], options: &[&str]) -> Answer {
@@ -80,8 +33,7 @@ fn with_any_method(text: &str, keys: &str) -> String {
 #[case::rounding_on_the_last_level("(h < 0.1 ? 1e-16 : 0.5 + 1.6*h)", FAILED, "FAIL")]
 fn the_order_has_a_lower_bound(#[case] error: &str, #[case] code: i32, #[case] words: &str) {
     let folder = folder(error);
-    let found = gate(&folder, &["bar.yaml"], &[]);
-    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    let found = gate(&folder, &["bar.yaml"], &[]).ended(code);
     assert!(found.out.contains(words), "{}", found.out);
     // A case that passes must not count as a known limit.
     let report = folder.call(&["run", "--gate", "--solver", "sh solver.sh", "bar.yaml"]);
@@ -107,9 +59,7 @@ fn rounding_error_does_not_fail_the_gate(
     let found = gate(&folder, &["bar.yaml"], &[]);
     // An individually named suite must be gated.
     assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
-    for words in [result, reason] {
-        assert!(found.out.contains(words), "{}", found.out);
-    }
+    assert_contains(&found.out, &[result, reason]);
 }
 
 #[test]
@@ -117,8 +67,7 @@ fn every_case_of_a_solver_that_a_suite_names_is_gated() {
     for (error, code) in [("h*h", SOUND), ("h^0.2", FAILED)] {
         let folder = folder(error);
         folder.write("bar.yaml", naming_the_solver());
-        let found = gate(&folder, &["bar.yaml"], &[]);
-        assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+        gate(&folder, &["bar.yaml"], &[]).ended(code);
     }
 }
 
@@ -135,8 +84,7 @@ fn requirement_is_limited_by_any_method(
 ) {
     let folder = folder(error);
     folder.write("bar.yaml", with_any_method(&bar(), keys));
-    let found = gate(&folder, &["bar.yaml"], &[]);
-    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    gate(&folder, &["bar.yaml"], &[]).ended(code);
 }
 
 #[rstest]
@@ -159,8 +107,7 @@ fn a_mistake_in_any_method(#[case] keys: &str, #[case] words: &str) {
     // Large strains, at which the law matters.
     let bar = bar().replace("1e-3*sin", "sin");
     folder.write("bar.yaml", bar.replace("expect:", &stated));
-    let found = gate(&folder, &["bar.yaml"], &[]);
-    assert_eq!(found.code, BAD_INPUT, "{}{}", found.out, found.errors);
+    let found = gate(&folder, &["bar.yaml"], &[]).ended(BAD_INPUT);
     assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
 }
 
@@ -171,14 +118,12 @@ fn one_level_is_not_gated_unless_the_suite_has_bounds() {
     let single = on_one_grid(&bar()).replace("short-bar", "single-bar");
     folder.write("suites/single.yaml", &single);
     folder.write("suites/bar.yaml", bar());
-    let found = gate(&folder, &["suites/single.yaml", "suites/bar.yaml"], &[]);
-    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    let found = gate(&folder, &["suites/single.yaml", "suites/bar.yaml"], &[]).ended(FAILED);
     assert!(found.out.contains("explored  single-bar::odd"), "{}", found.out);
     assert!(found.out.contains("one level, and an order needs 4"), "{}", found.out);
     assert!(found.errors.contains("not applicable or explored: single-bar"), "{}", found.errors);
     let allowed = ["--allow-not-applicable"];
-    let found = gate(&folder, &["suites/single.yaml", "suites/bar.yaml"], &allowed);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    gate(&folder, &["suites/single.yaml", "suites/bar.yaml"], &allowed).ended(SOUND);
     // A folder does not name a suite individually.
     assert_eq!(gate(&folder, &["suites"], &[]).code, SOUND);
     // Nothing is tested, so the gate fails.
@@ -202,16 +147,14 @@ fn a_named_suite_that_is_not_applicable_fails_unless_allowed() {
     let folder = folder("h*h");
     let foreign = bar().replace("short-bar", "hencky-bar").replace("linear_elastic:", "hencky:");
     folder.write("foreign.yaml", foreign.replace("small_strain", "hencky\n  tolerance: 1e-2"));
-    let found = gate(&folder, &["bar.yaml", "foreign.yaml"], &[]);
-    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    let found = gate(&folder, &["bar.yaml", "foreign.yaml"], &[]).ended(FAILED);
     // The line below the case must name the missing capability.
     let lines = found.out.lines().skip_while(|line| !line.contains("hencky-bar"));
     let lines = lines.take(2).collect::<Vec<_>>().concat();
     assert!(lines.contains("not applicable  hencky-bar::odd"), "{lines}");
     assert!(lines.contains("lacks laws: hencky"), "{lines}");
     assert!(found.errors.contains("hencky-bar; `--allow-not-applicable`"), "{}", found.errors);
-    let found = gate(&folder, &["bar.yaml", "foreign.yaml"], &["--allow-not-applicable"]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    gate(&folder, &["bar.yaml", "foreign.yaml"], &["--allow-not-applicable"]).ended(SOUND);
     assert_eq!(gate(&folder, &["foreign.yaml"], &["--allow-not-applicable"]).code, FAILED);
 }
 
@@ -224,8 +167,7 @@ fn a_named_suite_that_is_not_applicable_fails_unless_allowed() {
 fn shorter_steps_restore_the_order(#[case] error: &str, #[case] code: i32) {
     let folder = folder(error);
     folder.write("bar.yaml", BAR.replace("until: 0.05", "until: 0.004"));
-    let found = gate(&folder, &["bar.yaml"], &[]);
-    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    gate(&folder, &["bar.yaml"], &[]).ended(code);
 }
 
 /// In sums over the body, the mass of a solver's own point is its weight times the density.
@@ -246,16 +188,14 @@ fn sums_over_points_of_the_solver_have_an_order(#[case] factor: &str, #[case] co
     let text = bar().replace("observe: {at: [0.5]}", "judge: {of: kinetic_energy}");
     let text = text.replace("  - fem: {element: linear, mass: lumped}\n", "");
     folder.write("bar.yaml", text);
-    let answer = gate(&folder, &["bar.yaml"], &[]);
-    assert_eq!(answer.code, code, "{}{}", answer.out, answer.errors);
+    gate(&folder, &["bar.yaml"], &[]).ended(code);
 }
 
 /// Steps proportional to the cells are refined with them, so a first-order error in time lowers the
 /// order. Shorter steps would make this error too small to be noticed.
 #[test]
 fn steps_that_follow_the_cells_are_not_shortened() {
-    let found = gate(&folder("h*h + 25*d"), &["bar.yaml"], &[]);
-    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    gate(&folder("h*h + 25*d"), &["bar.yaml"], &[]).ended(FAILED);
 }
 
 /// A translation is run under a law that the solver does not support. The problem then uses a law
@@ -292,17 +232,13 @@ expect:
         "echo \"$problem\" >>log; echo '{\"type\":\"ready\"}'",
     );
     folder.write("solver.sh", logged);
-    let found = gate(&folder, &["moving.yaml"], &[]);
-    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    let found = gate(&folder, &["moving.yaml"], &[]).ended(FAILED);
     assert!(found.out.contains("lacks laws: corotated"), "{}", found.out);
     folder.write("moving.yaml", with_any_method(moving, "any_law: true"));
-    let found = gate(&folder, &["moving.yaml"], &[]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = gate(&folder, &["moving.yaml"], &[]).ended(SOUND);
     assert!(found.out.contains("at rounding"), "{}", found.out);
     let problem = folder.read("log");
-    for words in [r#""law":"linear_elastic""#, r#""young":3"#, r#""poisson":0.25"#] {
-        assert!(problem.contains(words), "no `{words}` in\n{problem}");
-    }
+    assert_contains(&problem, &[r#""law":"linear_elastic""#, r#""young":3"#, r#""poisson":0.25"#]);
 }
 
 #[rstest]
@@ -346,8 +282,7 @@ fn a_configuration_with(
 ) {
     let folder = folder(error);
     folder.write("solver.yaml", text);
-    let found = gate(&folder, &["bar.yaml"], &["--solver-config", "solver.yaml"]);
-    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    let found = gate(&folder, &["bar.yaml"], &["--solver-config", "solver.yaml"]).ended(code);
     assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
     if text.contains("skip") {
         for text in [&found.out, &found.errors] {
@@ -373,17 +308,14 @@ fn a_configuration_with(
 fn a_mistake_in_a_configuration(#[case] text: &str, #[case] words: &[&str]) {
     let folder = folder("h");
     folder.write("solver.yaml", text);
-    let found = gate(&folder, &["bar.yaml"], &["--solver-config", "solver.yaml"]);
-    assert_eq!(found.code, BAD_INPUT, "{}{}", found.out, found.errors);
-    for words in words {
-        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
-    }
+    let found = gate(&folder, &["bar.yaml"], &["--solver-config", "solver.yaml"]).ended(BAD_INPUT);
+    assert_contains(&found.errors, words);
 }
 
 #[test]
 fn missing_configuration_is_bad_input() {
-    let found = gate(&folder("h"), &["bar.yaml"], &["--solver-config", "none.yaml"]);
-    assert_eq!(found.code, BAD_INPUT, "{}{}", found.out, found.errors);
+    let found =
+        gate(&folder("h"), &["bar.yaml"], &["--solver-config", "none.yaml"]).ended(BAD_INPUT);
     assert!(found.errors.contains("none.yaml"), "{}", found.errors);
 }
 
@@ -402,8 +334,7 @@ fn a_named_study_of_a_method_fails_unless_allowed() {
 fn diagnosis_recommends_doctor_for_errors_as_large_as_the_solution() {
     let folder = folder("-2");
     folder.write("bar.yaml", naming_the_solver());
-    let found = folder.call(&["diagnose", "bar.yaml", "--solver", "sh solver.sh"]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = folder.call(&["diagnose", "bar.yaml", "--solver", "sh solver.sh"]).ended(SOUND);
     let words = flat(&found.out);
     assert!(words.contains("the solver solves another problem"), "{words}");
     assert!(words.contains("`mpm-verify doctor` with the same `--solver`"), "{words}");
@@ -446,7 +377,6 @@ expect:
     let scene = scene.replace("omega: \"5*pi\"", "a: 1e-3").replace("1e-3*sin", "a*sin");
     let scene = scene.replace("source:", "study: stability\nsource:");
     folder.write("stability.yaml", format!("{scene}{study}{entry}"));
-    let found = gate(&folder, &["stability.yaml"], &[]);
-    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    let found = gate(&folder, &["stability.yaml"], &[]).ended(code);
     assert!(found.out.contains(words), "{}", found.out);
 }

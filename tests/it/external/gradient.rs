@@ -1,15 +1,15 @@
 //! Derivatives of differentiable solvers. A library solver with a known error produces every state.
 
-use super::library::loaded;
+use crate::common::valid_suite;
 use mpm_verify::external::{
     Capabilities, Gradient, GradientError, GradientRequest, LevelProblem, ProblemNeeds,
     SolverFactory,
 };
-use mpm_verify::study::Runner;
+use mpm_verify::study::{Runner, under};
 use mpm_verify::subject::{
     Failure, Functional, GradientParameter, Precision, RunCounters, Samples, Subject, SubjectError,
 };
-use mpm_verify::suite::{ExternalMethod, GateTerms, Suite};
+use mpm_verify::suite::Suite;
 use mpm_verify::verify::{CaseOutcome, GradientState};
 use rstest::rstest;
 
@@ -169,16 +169,13 @@ impl SolverFactory for Differentiable {
 
 /// Runs the suite with `solver`, gated or not, and returns the cases.
 fn run(suite: &Suite, solver: &Differentiable, gate: bool) -> Vec<CaseOutcome> {
-    let (name, formal_order, precision) = (solver.name(), 2.0, solver.precision);
-    let method = ExternalMethod { name, formal_order, precision };
-    let terms = gate.then(GateTerms::default);
-    let judged = suite.of_external(method, terms.as_ref()).expect("a study of solvers");
+    let judged = under(suite, solver, gate).expect("a study of solvers");
     Runner::new(&judged).judging(solver).run(&|| ()).cases
 }
 
 fn cases(solver: &Differentiable) -> Vec<CaseOutcome> {
     // The displacement is far above its rounding error.
-    run(&loaded(&SUITE.replace("v0: 1e-5", "v0: 0.03")), solver, true)
+    run(&valid_suite(&SUITE.replace("v0: 1e-5", "v0: 0.03")), solver, true)
 }
 
 fn states(cases: &[CaseOutcome]) -> Vec<GradientState> {
@@ -212,7 +209,7 @@ fn exact_sensitivities_match_the_closed_form() {
         (0.5, 2.865_795_841_3e-6, -3.075_025_254_3e-7),
         (2.0, 0.0, -6.366_197_723_7e-6),
     ] {
-        let suite = loaded(&SUITE.replace("until: 1.3", &format!("until: {until}")));
+        let suite = valid_suite(&SUITE.replace("until: 1.3", &format!("until: {until}")));
         let cases = run(&suite, &Differentiable::sound(), false);
         let exact = |case: &CaseOutcome| {
             let study = case.gradient().expect("results");
@@ -235,10 +232,10 @@ fn rounding_of_the_initial_velocity_is_no_dependence() {
             let text = SUITE.replace("E: 1  ", &format!("E: {young:e}  "));
             let text = text.replace("rho: 1  ", &format!("rho: {density:e}  "));
             assert!(text.contains(&format!("rho: {density:e}")), "{text}");
-            loaded(&text);
+            valid_suite(&text);
         }
     }
-    let suite = loaded(&SUITE.replace("E: 1  ", "E: 3  ").replace("v0: 1e-5", "v0: 0.03"));
+    let suite = valid_suite(&SUITE.replace("E: 1  ", "E: 3  ").replace("v0: 1e-5", "v0: 0.03"));
     for case in run(&suite, &Differentiable::sound(), true) {
         assert_eq!(case.failure(), "", "{}", case.case);
     }
@@ -282,7 +279,7 @@ fn a_jump_of_the_function_is_named(#[case] at: f64) {
 #[test]
 fn single_precision_is_at_rounding_and_not_wrong() {
     let single = Differentiable { precision: Precision::Single, ..Differentiable::sound() };
-    let suite = loaded(SUITE);
+    let suite = valid_suite(SUITE);
     for (case, state) in
         run(&suite, &single, false).iter().zip(states(&run(&suite, &single, false)))
     {
@@ -314,7 +311,7 @@ fn a_refusal_is_not_applicable_and_a_failure_fails() {
 
 #[test]
 fn a_suite_without_a_solver_needs_one() {
-    let outcome = Runner::new(&loaded(SUITE)).run(&|| ());
+    let outcome = Runner::new(&valid_suite(SUITE)).run(&|| ());
     assert!(outcome.passed());
     for case in &outcome.cases {
         assert_eq!(

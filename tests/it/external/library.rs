@@ -1,12 +1,12 @@
 //! Solvers that a user of the library implements in Rust.
 
 use super::bar;
-use mpm_verify::embedded;
+use crate::common::{built_in_suite, valid_suite};
 use mpm_verify::external::{Capabilities, LevelProblem, ProblemNeeds, SolverFactory};
 use mpm_verify::study::{Runner, lacking, level_problem, under};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
-use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Extent, ExternalMethod, GateTerms, Suite};
+use mpm_verify::embedded;
+use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::{CaseOutcome, CaseResult};
 use rayon::prelude::*;
 use rstest::rstest;
@@ -73,18 +73,9 @@ impl SolverFactory for Maker {
     }
 }
 
-pub(super) fn loaded(text: &str) -> Suite {
-    let source = Source::from_text("bar.yaml", text).expect("a text");
-    Suite::load(&source).expect("a sound suite")
-}
-
 fn outcome(text: &str) -> CaseOutcome {
-    let suite = loaded(text);
     let maker = Maker("differences");
-    let (name, precision) = (maker.name(), maker.precision());
-    let method = ExternalMethod { name, formal_order: maker.formal_order(), precision };
-    let suite =
-        suite.of_external(method, Some(&GateTerms::default())).expect("a convergence study");
+    let suite = under(&valid_suite(text), &maker, true).expect("a convergence study");
     Runner::over(&suite, Extent::Usual).judging(&maker).case(0, &|| ())
 }
 
@@ -121,15 +112,8 @@ impl SolverFactory for Failing {
 #[test]
 fn a_solver_that_fails_in_its_setup_fails_the_case() {
     for name in ["vibrating-bar", "crossing-energy"] {
-        let source = embedded::source(name).expect("a suite").expect("a text");
-        let suite = Suite::load(&source).expect("a sound suite");
-        let method = ExternalMethod {
-            name: "failing",
-            formal_order: Failing.formal_order(),
-            precision: Failing.precision(),
-        };
-        let suite =
-            suite.of_external(method, Some(&GateTerms::default())).expect("a study of solvers");
+        let suite = built_in_suite(name);
+        let suite = under(&suite, &Failing, true).expect("a study of solvers");
         let found = Runner::over(&suite, Extent::Usual).judging(&Failing).case(0, &|| ());
         assert!(!found.passed(), "{name}: {} {}", found.verdict, found.reason);
         assert!(found.unmet.iter().any(|unmet| unmet.text.contains("out of memory")), "{name}");
@@ -140,8 +124,7 @@ fn a_solver_that_fails_in_its_setup_fails_the_case() {
 #[test]
 fn a_placed_body_force_is_the_body_force() {
     for name in ["mms-axis-aligned-2d", "geostatic-slope", "falling-block"] {
-        let Some(source) = embedded::source(name) else { panic!("no suite `{name}`") };
-        let suite = Suite::load(&source.expect("a text")).expect("a sound suite");
+        let suite = built_in_suite(name);
         let plan = suite.convergence().expect("a study of an order");
         let (case, level) = (&plan.cases[0], plan.refine.levels[0]);
         let problem = level_problem(name, plan, case, level).expect("a problem");
@@ -184,8 +167,7 @@ fn only_isotropic_elastic_laws_replace_a_law_at_small_strains(
     #[case] law: &'static str,
     #[case] replaces: bool,
 ) {
-    let source = embedded::source("lame-square").expect("a suite").expect("a text");
-    let suite = Suite::load(&source).expect("a sound suite");
+    let suite = built_in_suite("lame-square");
     let solver = OfLaw(law);
     let judged = under(&suite, &solver, false).expect("a suite for solvers");
     assert_eq!(lacking(&judged, &solver).is_empty(), replaces);

@@ -17,8 +17,7 @@ pub(crate) fn script(then: &str) -> String {
 
 /// Runs `script`, and returns exit status and output.
 fn run(script: &str, more: &[&str]) -> (i32, String) {
-    let folder = Folder::new();
-    folder.write("bar.yaml", bar());
+    let folder = Folder::with("bar.yaml", bar());
     folder.write("solver.sh", script);
     let mut arguments = vec!["run", "bar.yaml", "--brief", "--solver", "sh solver.sh"];
     arguments.extend(more);
@@ -120,8 +119,7 @@ fn a_gate_fails_with_its_solver() {
 /// Child processes of a solver must be killed with it.
 #[test]
 fn child_processes_of_a_solver_are_killed() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", bar());
+    let folder = Folder::with("bar.yaml", bar());
     folder.write("solver.sh", script("sleep 98 & echo $! >> pids; exit 1"));
     folder.call(&["run", "bar.yaml", "--solver", "sh solver.sh"]);
     let pids = std::fs::read_to_string(folder.path().join("pids")).expect("pids");
@@ -155,10 +153,8 @@ fn child_processes_of_a_solver_are_killed() {
     "has the invalid name `../x`: expected up to 64 letters"
 )]
 fn a_command_that_cannot_be_greeted_is_bad_input(#[case] command: &str, #[case] words: &str) {
-    let folder = Folder::new();
-    folder.write("bar.yaml", bar());
-    let found = folder.call(&["run", "bar.yaml", "--solver", command]);
-    assert_eq!(found.code, BAD_INPUT, "{}", found.errors);
+    let folder = Folder::with("bar.yaml", bar());
+    let found = folder.call(&["run", "bar.yaml", "--solver", command]).ended(BAD_INPUT);
     assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
 }
 

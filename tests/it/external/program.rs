@@ -2,13 +2,13 @@
 
 use super::bar;
 use crate::cli::{FAILED, Folder, SOUND, on_one_grid};
-use crate::common::folder::flat;
+use crate::common::folder::{assert_contains, flat};
 
 /// First message of a solver of one-dimensional elasticity.
 pub(crate) const HELLO: &str = r#"{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["linear_elastic"],"conditions":["free","fixed"]}}"#;
 
-/// A solver whose result is the exact solution with an error of h^2: it has order 2 and runs no
-/// steps.
+/// A solver whose result is the exact solution of the bar with a relative error of h^2: it has
+/// order 2 and runs no steps. The error is a formula in `h` (m) and the time step `d` (s).
 pub(super) const SECOND_ORDER: &str = r#"
 read -r m; echo 'HELLO'
 read -r problem || exit 0
@@ -27,8 +27,9 @@ while read -r m; do
             h = number("h")
         }
         NR == 2 {
-            pi = 3.14159265358979
-            t = number("from") + number("steps") * number("dt")
+            pi = atan2(0, -1)
+            d = number("dt")
+            t = number("from") + number("steps") * d
             for (p = 1; p <= n; p++) {
                 s = 1e-3 * sin(pi * X[p] / 2) * (1 + h * h)
                 u = u (p > 1 ? "," : "") sprintf("%.17g", s * sin(5 * pi * t) / (5 * pi))
@@ -39,19 +40,28 @@ while read -r m; do
 done
 "#;
 
-fn folder() -> Folder {
-    let folder = Folder::new();
-    folder.write("bar.yaml", bar());
-    folder.write("solver.sh", SECOND_ORDER.replace("HELLO", HELLO));
+/// Creates the script of a solver whose relative error is `error`.
+pub(super) fn solver_of(error: &str) -> String {
+    SECOND_ORDER.replace("HELLO", HELLO).replace("(1 + h * h)", &format!("(1 + {error})"))
+}
+
+/// Creates a folder with `bar.yaml`, and with a solver in `solver.sh` whose relative error is
+/// `error`.
+pub(super) fn folder_of(error: &str) -> Folder {
+    let folder = Folder::with("bar.yaml", bar());
+    folder.write("solver.sh", solver_of(error));
     folder
+}
+
+fn folder() -> Folder {
+    folder_of("h * h")
 }
 
 const SOLVER: &str = "sh solver.sh";
 
 #[test]
 fn a_program_is_judged_like_any_method() {
-    let found = folder().call(&["run", "bar.yaml", "--solver", SOLVER]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = folder().call(&["run", "bar.yaml", "--solver", SOLVER]).ended(SOUND);
     let flat = flat(&found.out);
     for words in [
         "solver odd version 1 precision double formal order 2, as stated by the solver",
@@ -66,13 +76,11 @@ fn a_program_is_judged_like_any_method() {
 fn gate_requires_the_claimed_order() {
     let folder = folder();
     let gate = ["run", "bar.yaml", "--solver", SOLVER, "--gate", "--brief"];
-    let found = folder.call(&gate);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = folder.call(&gate).ended(SOUND);
     assert!(found.out.contains("pass  short-bar::odd"), "{}", found.out);
     let boastful = HELLO.replace(r#""version""#, r#""formal_order":3,"version""#);
     folder.write("solver.sh", SECOND_ORDER.replace("HELLO", &boastful));
-    let found = folder.call(&gate);
-    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    folder.call(&gate).ended(FAILED);
 }
 
 /// If a capability is missing, the case must have neither a verdict nor a pass.
@@ -81,8 +89,7 @@ fn case_with_a_missing_capability_is_not_applicable() {
     let folder = folder();
     let poor = HELLO.replace(r#""laws":["linear_elastic"]"#, r#""laws":[]"#);
     folder.write("poor.sh", SECOND_ORDER.replace("HELLO", &poor));
-    let found = folder.call(&["run", "bar.yaml", "--solver", "sh poor.sh"]);
-    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    let found = folder.call(&["run", "bar.yaml", "--solver", "sh poor.sh"]).ended(FAILED);
     let words = "remark odd: the solver lacks laws: linear_elastic";
     assert!(flat(&found.out).contains(words), "{}", found.out);
     assert!(found.errors.contains("no case is applicable to the solver"), "{}", found.errors);
@@ -91,8 +98,9 @@ fn case_with_a_missing_capability_is_not_applicable() {
 /// An external solver does not report the force on a node while a particle crosses it.
 #[test]
 fn studies_of_method_internals_are_skipped() {
-    let found = folder().call(&["run", "bar.yaml", "grid-crossing", "--solver", SOLVER, "--brief"]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = folder()
+        .call(&["run", "bar.yaml", "grid-crossing", "--solver", SOLVER, "--brief"])
+        .ended(SOUND);
     assert!(found.errors.contains("grid-crossing: skipped"), "{}", found.errors);
 }
 
@@ -100,8 +108,8 @@ fn studies_of_method_internals_are_skipped() {
 fn logged() -> Folder {
     let folder = folder();
     let logging = "echo problem >>log\necho '{\"type\":\"ready\"}'";
-    let script = SECOND_ORDER.replace("HELLO", HELLO);
-    folder.write("solver.sh", script.replace("echo '{\"type\":\"ready\"}'", logging));
+    let script = folder.read("solver.sh").replace("echo '{\"type\":\"ready\"}'", logging);
+    folder.write("solver.sh", script);
     folder
 }
 
@@ -114,8 +122,7 @@ const KEPT: [&str; 6] = ["run", "bar.yaml", "--solver", SOLVER, "--resume", "kep
 #[test]
 fn finished_levels_are_reused_only_for_the_same_solver() {
     let folder = logged();
-    let first = folder.call(&KEPT);
-    assert_eq!(first.code, SOUND, "{}", first.errors);
+    let first = folder.call(&KEPT).ended(SOUND);
     let levels = problems(&folder);
     assert!(levels >= 4, "{levels}");
     let again = folder.call(&KEPT);
@@ -150,8 +157,8 @@ fn failed_level_runs_again() {
 fn cost_measures_the_time_of_a_program() {
     let folder = folder();
     folder.write("bar.yaml", on_one_grid(&bar()));
-    let found = folder.call(&["cost", "bar.yaml", "--solver", SOLVER, "--format", "json"]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found =
+        folder.call(&["cost", "bar.yaml", "--solver", SOLVER, "--format", "json"]).ended(SOUND);
     let found: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
     let text = found.to_string();
     assert!(text.contains("\"odd\"") && text.contains("\"seconds\""), "{text}");
@@ -165,8 +172,7 @@ fn unknown_columns_of_a_state_are_ignored() {
         .replace("\\\"velocity\\\":[%s]", "\\\"velocity\\\":[%s],\\\"spin\\\":[1]");
     assert!(more.contains("spin"));
     folder.write("solver.sh", more);
-    let found = folder.call(&["run", "bar.yaml", "--solver", SOLVER, "--brief"]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = folder.call(&["run", "bar.yaml", "--solver", SOLVER, "--brief"]).ended(SOUND);
     assert!(found.out.contains("converging      2.00 [2.00, 2.00]"), "{}", found.out);
 }
 
@@ -213,32 +219,25 @@ done
     assert!(flat(&found.out).contains("columns: stress_across"), "{}", found.out);
 }
 
-/// Creates a solver of order 1, on four levels.
-fn of_first_order() -> Folder {
-    let folder = folder();
-    folder.write("solver.sh", SECOND_ORDER.replace("HELLO", HELLO).replace("1 + h * h", "1 + h"));
-    folder
-}
-
 #[test]
 fn a_program_is_diagnosed_without_changes_of_its_method() {
-    let found = of_first_order().call(&["diagnose", "bar.yaml", "--solver", SOLVER]);
+    let found = folder_of("h").call(&["diagnose", "bar.yaml", "--solver", SOLVER]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
     let flat = flat(&found.out);
-    for words in [
-        "the verdict is too low",
-        "Settings of the method (start, scheme, basis, transfer, mass matrix, frame) are not changed",
-        "cells of half the size",
-    ] {
-        assert!(flat.contains(words), "no `{words}` in\n{}", found.out);
-    }
+    assert_contains(
+        &flat,
+        &[
+            "the verdict is too low",
+            "Settings of the method (start, scheme, basis, transfer, mass matrix, frame) are not changed",
+            "cells of half the size",
+        ],
+    );
     assert!(!flat.contains("NaN") && !flat.contains("half_step_back"), "{}", found.out);
 }
 
 #[test]
 fn expectations_are_proposed_for_a_program() {
-    let found = folder().call(&["propose", "bar.yaml", "--solver", SOLVER]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = folder().call(&["propose", "bar.yaml", "--solver", SOLVER]).ended(SOUND);
     for words in ["- external: {name: odd}", "- case: [odd]", "order: [1.9, 2.1]  # from theory"] {
         assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
     }

@@ -1,12 +1,14 @@
 //! `run --repeat`: the spread between repeated runs of a level.
 
 use super::bar;
-use super::library::{Maker, loaded};
+use super::library::Maker;
+use crate::common::folder::assert_contains;
+use crate::common::valid_suite;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::report;
-use mpm_verify::study::Runner;
+use mpm_verify::study::{Runner, under};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
-use mpm_verify::suite::{Extent, ExternalMethod, Suite};
+use mpm_verify::suite::Extent;
 use mpm_verify::verify::{CaseOutcome, Exclusion, LevelOutcome, SuiteOutcome};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -59,12 +61,7 @@ impl SolverFactory for Unsteady {
 /// Runs each level of the suite three times with the unsteady solver.
 fn repeated(noise: f64) -> SuiteOutcome {
     let solver = Unsteady { noise, runs: AtomicU64::new(1) };
-    let method = ExternalMethod {
-        name: solver.name(),
-        formal_order: solver.formal_order(),
-        precision: solver.precision(),
-    };
-    let suite: Suite = loaded(&bar()).of_external(method, None).expect("a convergence study");
+    let suite = under(&valid_suite(&bar()), &solver, false).expect("a convergence study");
     Runner::over(&suite, Extent::Usual).judging(&solver).repeating(3).run(&|| ())
 }
 
@@ -114,27 +111,25 @@ fn a_level_whose_spread_exceeds_a_tenth_of_its_error_does_not_count() {
     let remark = "not counted because the spread between runs exceeds a tenth of the error";
     assert!(case.reason.contains(remark), "{}", case.reason);
     let json = report::json(std::slice::from_ref(&found));
-    for key in [r#""excluded_by": "spread""#, r#""counts": false"#, r#""spread": "#] {
-        assert!(json.contains(key), "no {key} in {json}");
-    }
+    assert_contains(&json, &[r#""excluded_by": "spread""#, r#""counts": false"#, r#""spread": "#]);
 }
 
 #[cfg(unix)]
 mod command_line {
     use super::super::bar;
-    use super::super::program::{HELLO, SECOND_ORDER};
+    use super::super::program::solver_of;
     use crate::cli::{Folder, SOUND};
 
     /// Each run of each of the four levels must have its own process.
     #[test]
     fn each_run_has_a_new_process() {
-        let folder = Folder::new();
-        folder.write("bar.yaml", bar());
+        let folder = Folder::with("bar.yaml", bar());
         let logging = "echo $$ >>log\necho '{\"type\":\"ready\"}'";
-        let script = SECOND_ORDER.replace("HELLO", HELLO);
+        let script = solver_of("h * h");
         folder.write("solver.sh", script.replace("echo '{\"type\":\"ready\"}'", logging));
-        let found = folder.call(&["run", "bar.yaml", "--solver", "sh solver.sh", "--repeat", "3"]);
-        assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+        let found = folder
+            .call(&["run", "bar.yaml", "--solver", "sh solver.sh", "--repeat", "3"])
+            .ended(SOUND);
         assert!(found.out.contains("spread between runs"), "{}", found.out);
         let log = folder.read("log");
         let mut processes: Vec<&str> = log.lines().collect();
@@ -145,8 +140,7 @@ mod command_line {
 
     #[test]
     fn a_repetition_without_a_spread_is_refused() {
-        let folder = Folder::new();
-        folder.write("bar.yaml", bar());
+        let folder = Folder::with("bar.yaml", bar());
         for (arguments, reason) in [
             (&["--repeat", "1"][..], "--repeat 1: a spread needs two runs or more"),
             (&["--repeat", "0"], "--repeat 0: a spread needs two runs or more"),

@@ -1,7 +1,7 @@
 //! Several solvers in one report: names, cases, gates, and duplicate names.
 
 use super::bar;
-use super::program::{HELLO, SECOND_ORDER};
+use super::program::solver_of;
 use crate::cli::{BAD_INPUT, Folder, SOUND};
 use rstest::{fixture, rstest};
 use serde_json::Value;
@@ -9,28 +9,27 @@ use serde_json::Value;
 /// Creates a folder with a suite and two solvers, whose errors differ by a factor.
 #[fixture]
 fn folder() -> Folder {
-    let folder = Folder::new();
-    folder.write("bar.yaml", bar());
-    let solver = SECOND_ORDER.replace("HELLO", HELLO);
-    folder.write("one.sh", &solver);
-    folder.write("two.sh", solver.replace("1 + h * h", "1 + 2 * h * h"));
+    let folder = Folder::with("bar.yaml", bar());
+    folder.write("one.sh", solver_of("h * h"));
+    folder.write("two.sh", solver_of("2 * h * h"));
     folder
 }
 
 #[rstest]
 fn solvers_and_methods_are_cases_of_one_suite(folder: Folder) {
-    let answer = folder.call(&[
-        "run",
-        "bar.yaml",
-        "--with-methods",
-        "--format",
-        "json",
-        "--solver",
-        "first=sh one.sh",
-        "--solver",
-        "second=sh two.sh",
-    ]);
-    assert_eq!(answer.code, SOUND, "{}", answer.errors);
+    let answer = folder
+        .call(&[
+            "run",
+            "bar.yaml",
+            "--with-methods",
+            "--format",
+            "json",
+            "--solver",
+            "first=sh one.sh",
+            "--solver",
+            "second=sh two.sh",
+        ])
+        .ended(SOUND);
     let document: Value = serde_json::from_str(&answer.out).unwrap();
     let suites = document["suites"].as_array().unwrap();
     assert_eq!(suites.len(), 1);
@@ -45,8 +44,9 @@ fn solvers_and_methods_are_cases_of_one_suite(folder: Folder) {
 
 #[rstest]
 fn a_report_shows_no_transfers_of_solvers_that_count_none(folder: Folder) {
-    let answer = folder.call(&["run", "bar.yaml", "--with-methods", "--solver", "mine=sh one.sh"]);
-    assert_eq!(answer.code, SOUND, "{}", answer.errors);
+    let answer = folder
+        .call(&["run", "bar.yaml", "--with-methods", "--solver", "mine=sh one.sh"])
+        .ended(SOUND);
     let (_, finest) = answer.out.split_once("on the finest level").expect("a table");
     let transfers = |case: &str| {
         // Cells are separated by at least two spaces.
@@ -68,10 +68,9 @@ fn a_report_shows_no_transfers_of_solvers_that_count_none(folder: Folder) {
 #[rstest]
 fn one_ranking_by_seconds_has_methods_and_solvers(folder: Folder) {
     let solvers = ["--solver", "first=sh one.sh", "--solver", "second=sh two.sh"];
-    let answer = folder.call(
-        &[&["cost", "bar.yaml", "--with-methods", "--format", "json"], &solvers[..]].concat(),
-    );
-    assert_eq!(answer.code, SOUND, "{}", answer.errors);
+    let answer = folder
+        .call(&[&["cost", "bar.yaml", "--with-methods", "--format", "json"], &solvers[..]].concat())
+        .ended(SOUND);
     let document: Value = serde_json::from_str(&answer.out).unwrap();
     let suite = &document["suites"][0];
     let names = |list: &Value| -> Vec<String> {
@@ -104,8 +103,7 @@ fn cost_refuses_what_run_refuses(folder: Folder, #[case] options: &str) {
 #[rstest]
 fn each_solver_has_its_own_gate(folder: Folder) {
     let gate = ["run", "bar.yaml", "--gate", "--brief", "--solver"];
-    let broken = SECOND_ORDER.replace("HELLO", HELLO).replace("1 + h * h", "1 + h");
-    folder.write("low.sh", broken);
+    folder.write("low.sh", solver_of("h"));
     let both = |second: &'static str| {
         folder.call(&[&gate[..], &["first=sh one.sh", "--solver", second]].concat())
     };
@@ -119,18 +117,19 @@ fn each_solver_has_its_own_gate(folder: Folder) {
 
 #[rstest]
 fn case_is_selected_by_the_given_solver_name(folder: Folder) {
-    let answer = folder.call(&[
-        "run",
-        "bar.yaml",
-        "--brief",
-        "--case",
-        "second",
-        "--solver",
-        "first=sh one.sh",
-        "--solver",
-        "second=sh two.sh",
-    ]);
-    assert_eq!(answer.code, SOUND, "{}", answer.errors);
+    let answer = folder
+        .call(&[
+            "run",
+            "bar.yaml",
+            "--brief",
+            "--case",
+            "second",
+            "--solver",
+            "first=sh one.sh",
+            "--solver",
+            "second=sh two.sh",
+        ])
+        .ended(SOUND);
     assert!(!answer.out.contains("first") && answer.out.contains("::second"), "{}", answer.out);
 }
 
@@ -161,7 +160,6 @@ fn case_is_selected_by_the_given_solver_name(folder: Folder) {
 )]
 fn equal_names_are_refused(folder: Folder, #[case] options: &str, #[case] error: &str) {
     let options: Vec<&str> = options.split('|').collect();
-    let answer = folder.call(&[&["run", "bar.yaml"], &options[..]].concat());
-    assert_eq!((answer.code, answer.out.as_str()), (BAD_INPUT, ""));
-    assert_eq!(answer.errors.lines().next(), Some(error), "{}", answer.errors);
+    let errors = folder.refused(&[&["run", "bar.yaml"], &options[..]].concat());
+    assert_eq!(errors.lines().next(), Some(error), "{errors}");
 }

@@ -1,11 +1,12 @@
 //! Verdicts on solvers in single precision: levels below the rounding bound must not count.
 
-use super::library::loaded;
+use crate::common::folder::assert_contains;
+use crate::common::valid_suite;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::report;
-use mpm_verify::study::Runner;
+use mpm_verify::study::{Runner, under};
 use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject, SubjectError};
-use mpm_verify::suite::{Extent, ExternalMethod};
+use mpm_verify::suite::Extent;
 use mpm_verify::verify::{Exclusion, LevelOutcome, SuiteOutcome};
 
 /// Finite differences in space with velocity Verlet in time. Every operation is in single
@@ -99,9 +100,7 @@ fn bar(amplitude: &str, cells: &str) -> String {
 }
 
 fn run(solver: &Single, text: &str) -> SuiteOutcome {
-    let (name, formal_order) = (solver.name(), solver.formal_order());
-    let method = ExternalMethod { name, formal_order, precision: solver.precision };
-    let suite = loaded(text).of_external(method, None).expect("a convergence study");
+    let suite = under(&valid_suite(text), solver, false).expect("a convergence study");
     Runner::over(&suite, Extent::Usual).judging(solver).run(&|| ())
 }
 
@@ -126,9 +125,10 @@ fn a_solver_of_second_order_converges_down_to_rounding() {
     assert_eq!(exclusions[..5], [None; 5]);
     assert_eq!(exclusions[5..], [Some(Exclusion::Rounding); 3]);
     let json = report::json(std::slice::from_ref(&found));
-    for key in [r#""excluded_by": "rounding""#, r#""counts": false"#, r#""rounding_bound": "#] {
-        assert!(json.contains(key), "no {key} in {json}");
-    }
+    assert_contains(
+        &json,
+        &[r#""excluded_by": "rounding""#, r#""counts": false"#, r#""rounding_bound": "#],
+    );
 }
 
 #[test]
@@ -157,7 +157,5 @@ fn too_few_levels_above_the_bound_ask_for_a_larger_amplitude() {
     let found = run(&solver, &bar("0.3", "[8, 12, 32, 64]"));
     let case = &found.cases[0];
     assert_eq!(case.verdict, "too few levels", "{}", case.reason);
-    for words in ["rounding bound of single precision", "a larger amplitude"] {
-        assert!(case.reason.contains(words), "{}", case.reason);
-    }
+    assert_contains(&case.reason, &["rounding bound of single precision", "a larger amplitude"]);
 }

@@ -1,11 +1,9 @@
 //! Spectrum studies of external solvers.
 
-use mpm_verify::embedded;
+use crate::common::built_in_suite;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::study::{Runner, under};
 use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject, SubjectError};
-use mpm_verify::suite::Suite;
-use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::CaseOutcome;
 use std::f64::consts::TAU;
 
@@ -70,13 +68,9 @@ impl SolverFactory for Waves {
     }
 }
 
-fn suite() -> Suite {
-    let source: Source = embedded::source("wave-spectrum").expect("a suite").expect("a text");
-    Suite::load(&source).expect("a sound suite")
-}
-
 fn outcome(solver: &Waves, gate: bool) -> CaseOutcome {
-    let suite = under(&suite(), solver, gate).expect("a study of external solvers");
+    let suite =
+        under(&built_in_suite("wave-spectrum"), solver, gate).expect("a study of external solvers");
     assert_eq!(suite.case_names(), [solver.name]);
     Runner::new(&suite).judging(solver).case(0, &|| ())
 }

@@ -1,7 +1,8 @@
 //! Solvers that a suite lists among its methods.
 
 use super::bar;
-use super::library::{Maker, loaded};
+use super::library::Maker;
+use crate::common::valid_suite;
 use mpm_verify::external::SolverFactory;
 use mpm_verify::study::Runner;
 use mpm_verify::suite::yaml::Source;
@@ -23,7 +24,7 @@ fn under(maker: &Maker, suite: &Suite) -> Vec<CaseOutcome> {
 
 #[test]
 fn a_solver_meets_the_expectation_that_the_suite_states() {
-    let suite = loaded(&with_entry("{name: differences}"));
+    let suite = valid_suite(&with_entry("{name: differences}"));
     let cases = under(&Maker("differences"), &suite);
     assert_eq!(cases.len(), 1);
     assert_eq!(cases[0].case, "differences");
@@ -33,7 +34,7 @@ fn a_solver_meets_the_expectation_that_the_suite_states() {
 
 #[test]
 fn solver_with_another_name_is_compared_only_with_theory() {
-    let suite = loaded(&with_entry("{name: volumes}"));
+    let suite = valid_suite(&with_entry("{name: volumes}"));
     let cases = under(&Maker("differences"), &suite);
     assert_eq!((cases.len(), cases[0].case.as_str()), (1, "differences"));
     assert_eq!(cases[0].expected, None);
@@ -41,7 +42,7 @@ fn solver_with_another_name_is_compared_only_with_theory() {
 
 #[test]
 fn without_its_command_a_solver_is_not_applicable_and_others_are_judged() {
-    let suite = loaded(&with_entry("{name: differences, formal_order: 2}"));
+    let suite = valid_suite(&with_entry("{name: differences, formal_order: 2}"));
     let cases = Runner::new(&suite).run(&|| ()).cases;
     let results: Vec<_> =
         cases.iter().map(|case| (case.case.as_str(), case.result().name())).collect();
@@ -53,7 +54,7 @@ fn without_its_command_a_solver_is_not_applicable_and_others_are_judged() {
 fn automatic_step_of_a_solver_is_a_share_of_the_crossing_time() {
     let text = with_entry("{name: differences}")
         .replace("until: 0.004, dt: \"h/250\"", "until: 0.05, dt: {courant: 0.05}");
-    let cases = under(&Maker("differences"), &loaded(&text));
+    let cases = under(&Maker("differences"), &valid_suite(&text));
     let study = cases[0].convergence().expect("a study");
     for level in &study.levels {
         assert!((level.dt / (0.05 * level.h / 10.0) - 1.0).abs() < 0.01, "{}", level.dt);

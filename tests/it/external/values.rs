@@ -3,15 +3,13 @@
 
 use super::program::{HELLO, SECOND_ORDER};
 use crate::cli::{Folder, SOUND};
-use crate::common::folder::flat;
-use mpm_verify::embedded;
+use crate::common::folder::{assert_contains, flat};
+use crate::common::{built_in_source, built_in_suite, valid_suite};
 use mpm_verify::external::{
     Capabilities, FieldName, FieldPlaces, LevelProblem, ProgramLimits, SolverFactory, SolverProgram,
 };
 use mpm_verify::study::{level_problem, needs};
 use mpm_verify::subject::Samples;
-use mpm_verify::suite::Suite;
-use mpm_verify::suite::yaml::Source;
 use rstest::rstest;
 use serde_json::{Value, json};
 
@@ -82,8 +80,7 @@ fn script(requests: &[Value]) -> String {
 
 /// Returns the problem of `suite`, and the answers to `requests`.
 fn answers(suite: &str, requests: &[Value]) -> Vec<Value> {
-    let folder = Folder::new();
-    folder.write("suite.yaml", suite);
+    let folder = Folder::with("suite.yaml", suite);
     folder.write("solver.sh", script(requests));
     let found = folder.call(&["run", "suite.yaml", "--solver", "sh solver.sh"]);
     assert!(found.out.contains("the solver reports: done"), "{}{}", found.out, found.errors);
@@ -213,8 +210,7 @@ fn the_initial_state_is_known_at_any_place_of_the_body() {
 }
 
 fn problem_of(name: &str) -> LevelProblem {
-    let Some(source) = embedded::source(name) else { panic!("no suite `{name}`") };
-    let suite = Suite::load(&source.expect("a text")).expect("a sound suite");
+    let suite = built_in_suite(name);
     let plan = suite.convergence().expect("a study of an order");
     level_problem(name, plan, &plan.cases[0], plan.refine.levels[0]).expect("a problem")
 }
@@ -222,8 +218,7 @@ fn problem_of(name: &str) -> LevelProblem {
 /// A load step is a step of length 1. The problem must state the number of load steps.
 #[test]
 fn load_steps_are_passed_to_solvers_that_list_them() {
-    let source = embedded::source("load-steps-hencky").expect("a suite").expect("a text");
-    let suite = Suite::load(&source).expect("a sound suite");
+    let suite = built_in_suite("load-steps-hencky");
     let plan = suite.convergence().expect("a study of an order");
     for case in &plan.cases {
         let steps = if case.name.ends_with("-20") { 20 } else { 1 };
@@ -330,10 +325,9 @@ fn pressure_on_a_rim_is_passed_to_solvers() {
     assert_eq!((load.get("face"), &load["values"]["pressure"]), (None, &json!(1e-5)));
 
     // The pressure becomes a formula of the position. On the rim it equals Lame's pressure.
-    let text = embedded::source(name).expect("a suite").expect("a text").text().to_owned();
+    let text = built_in_source(name).text().to_owned();
     let text = text.replace("value: p}", "value: \"p*(X^2 + Y^2)/a^2\"}");
-    let source = Source::from_text("suite.yaml", &text).expect("a text");
-    let suite = Suite::load(&source).unwrap_or_else(|error| panic!("{error}"));
+    let suite = valid_suite(&text);
     let plan = suite.convergence().expect("a study of an order");
     assert!(needs(plan).loaded_rims);
     let case = &plan.cases[0];
@@ -358,8 +352,7 @@ fn points_start_in_the_initial_state() {
     let path = folder.write("solver.sh", asking.replace("echo \"$m\" >>log", ""));
     let command = format!("sh {}", path.display());
     let program = SolverProgram::greet(&command, ProgramLimits::default()).expect("a hello");
-    let source = Source::from_text("suite.yaml", STRETCHED).expect("a text");
-    let suite = Suite::load(&source).expect("a sound suite");
+    let suite = valid_suite(STRETCHED);
     let plan = suite.convergence().expect("a study of an order");
     let problem = level_problem("stretched", plan, &plan.cases[0], plan.refine.levels[0]);
     let subject = program.subject(problem.expect("a problem")).expect("a subject");
@@ -440,8 +433,7 @@ fn too_many_requests_fail_the_case() {
 
 /// Asserts that a solver fails for the loaded body, for a `reason`, and passes the bar.
 fn fails(script: &str, reason: &str) {
-    let folder = Folder::new();
-    folder.write("loaded.yaml", LOADED);
+    let folder = Folder::with("loaded.yaml", LOADED);
     folder.write("bar.yaml", super::bar());
     folder.write("wrong.sh", script.split_once("read -r m\n").map_or("", |(_, rest)| rest));
     let sound = SECOND_ORDER.replace("HELLO", &hello().replace("asking", "odd"));
@@ -449,8 +441,7 @@ fn fails(script: &str, reason: &str) {
                   echo '{\"type\":\"ready\"}'";
     folder.write("solver.sh", sound.replacen("echo '{\"type\":\"ready\"}'", branch, 1));
     let command = ["run", "loaded.yaml", "bar.yaml", "--brief", "--solver", "sh solver.sh"];
-    let found = folder.call(&command);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = folder.call(&command).ended(SOUND);
     let flat = flat(&found.out);
     assert!(flat.contains(reason), "no `{reason}` in\n{}", found.out);
     assert!(flat.contains("explored short-bar::odd converging"), "{}", found.out);
@@ -459,8 +450,7 @@ fn fails(script: &str, reason: &str) {
 /// A solver of version 1 must not receive loads and conditions whose numbers only version 2 passes.
 #[test]
 fn version_1_lacks_loads_and_conditions_with_numbers() {
-    let folder = Folder::new();
-    folder.write("loaded.yaml", LOADED);
+    let folder = Folder::with("loaded.yaml", LOADED);
     let older = script(&[]).replace(r#""protocol":2"#, r#""protocol":1"#);
     folder.write("solver.sh", older);
     let found = folder.call(&["check", "loaded.yaml", "--solver", "sh solver.sh"]);
@@ -483,8 +473,7 @@ fn version_1_lacks_loads_and_conditions_with_numbers() {
 /// summary.
 #[test]
 fn check_lists_the_suites_that_a_solver_can_run() {
-    let folder = Folder::new();
-    folder.write("suites/loaded.yaml", LOADED);
+    let folder = Folder::with("suites/loaded.yaml", LOADED);
     folder.write("suites/bar.yaml", super::bar());
     let older = script(&[]).replace(r#""protocol":2"#, r#""protocol":1"#);
     folder.write("solver.sh", older);
@@ -502,20 +491,19 @@ fn check_lists_the_suites_that_a_solver_can_run() {
 #[case::check("check", SOUND)]
 #[case::run("run", 1)]
 fn unknown_names_in_capabilities_are_reported(#[case] command: &str, #[case] code: i32) {
-    let folder = Folder::new();
-    folder.write("bar.yaml", super::bar());
+    let folder = Folder::with("bar.yaml", super::bar());
     let misspelt = HELLO
         .replace("\"linear_elastic\"", "\"linear-elastic\"")
         .replace("\"capabilities\":{", "\"capabilities\":{\"periodic_axes\":true,");
     folder.write("solver.sh", format!("read -r m; echo '{misspelt}'; read -r m"));
-    let found = folder.call(&[command, "bar.yaml", "--solver", "sh solver.sh"]);
-    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
-    for words in [
-        "unknown capability `periodic_axes`; known: dimensions, laws",
-        "unknown name `linear-elastic` in laws; did you mean `linear_elastic`?",
-    ] {
-        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
-    }
+    let found = folder.call(&[command, "bar.yaml", "--solver", "sh solver.sh"]).ended(code);
+    assert_contains(
+        &found.errors,
+        &[
+            "unknown capability `periodic_axes`; known: dimensions, laws",
+            "unknown name `linear-elastic` in laws; did you mean `linear_elastic`?",
+        ],
+    );
     let lacking = "laws: linear_elastic (stated as `linear-elastic`)";
     assert!(flat(&found.out).contains(lacking), "no `{lacking}` in\n{}", found.out);
 }

@@ -1,10 +1,9 @@
 //! Scales for comparing errors and work between cases, for a bar with an exact solution.
 
 use crate::cli::BAR;
+use crate::common::valid_suite;
 use approx::assert_relative_eq;
 use mpm_verify::study::Runner;
-use mpm_verify::suite::Suite;
-use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::ErrorScale;
 use rstest::rstest;
 
@@ -12,8 +11,7 @@ use rstest::rstest;
 fn scale(from: &str, to: &str) -> ErrorScale {
     let text = BAR.replace(from, to);
     assert!(text != BAR || from == to, "no `{from}`");
-    let suite = Suite::load(&Source::from_text("short-bar.yaml", text).unwrap()).unwrap();
-    let outcome = Runner::new(&suite).run(&|| ());
+    let outcome = Runner::new(&valid_suite(&text)).run(&|| ());
     outcome.cases[0].convergence().unwrap().error_scale.clone()
 }
 

@@ -1,8 +1,7 @@
 //! References on a fine grid, and errors that have no order.
 
+use crate::common::{edited, valid_suite};
 use mpm_verify::study::Runner;
-use mpm_verify::suite::Suite;
-use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, Convergence};
 
 /// A vibrating bar that is compared with its formula and with a run on 192 cells.
@@ -42,8 +41,7 @@ expect:
 "#;
 
 fn cases(text: &str) -> Vec<CaseOutcome> {
-    let suite = Suite::load(&Source::from_text("bar.yaml", text).unwrap());
-    let suite = suite.unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let suite = valid_suite(text);
     Runner::new(&suite).run(&|| ()).cases
 }
 
@@ -99,10 +97,7 @@ fn settlements_of_stiff_soil_are_proportional_to_the_load() {
             ("q: 5 ", pressure),
             ("same_method: {cells: 32}", "same_method: {cells: 64}"),
         ];
-        let text = edits.iter().fold(footing.to_owned(), |text, (from, to)| {
-            assert!(text.contains(from), "no `{from}`");
-            text.replace(from, to)
-        });
+        let text = edited(footing, &edits);
         let errors = |case: &CaseOutcome| -> Vec<f64> {
             let study = case.convergence().expect("a convergence study");
             study.levels.iter().map(|level| level.error).collect()

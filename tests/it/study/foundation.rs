@@ -1,8 +1,7 @@
 //! Loads that depend on the displacement: their effect in this solver and on the stable time step.
 
+use crate::common::valid_suite;
 use mpm_verify::study::Runner;
-use mpm_verify::suite::Suite;
-use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, LevelOutcome};
 use rstest::rstest;
 
@@ -71,8 +70,7 @@ methods:
 "#;
 
 fn cases(text: &str) -> Vec<CaseOutcome> {
-    let suite = Suite::load(&Source::from_text("suite.yaml", text).unwrap());
-    let suite = suite.unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let suite = valid_suite(text);
     Runner::new(&suite).run(&|| ()).cases
 }
 

@@ -1,8 +1,7 @@
 //! Volumetric locking: compares the errors of one motion for two Poisson's ratios, level by level.
 
+use crate::common::valid_suite;
 use mpm_verify::study::Runner;
-use mpm_verify::suite::Suite;
-use mpm_verify::suite::yaml::Source;
 use rstest::rstest;
 
 const SHEARS: &str =
@@ -19,8 +18,7 @@ fn errors(nu: &str, method: &str, cells: &str) -> Vec<f64> {
     assert!(text.contains(levels));
     let text = text.replace(levels, &format!("cells: [{cells}]"));
     let text = format!("{text}methods:\n  - mpm: {{{method}, start: half_step_back}}\n");
-    let source = Source::from_text("shears.yaml", text).expect("a YAML file");
-    let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let suite = valid_suite(&text);
     let outcome = Runner::new(&suite).case(0, &|| ());
     let study = outcome.convergence().expect("a convergence study");
     study.levels.iter().map(|level| level.error).collect()

@@ -1,9 +1,8 @@
 //! Particles of polygons, on every level of the suites with polygons.
 
+use crate::common::valid_suite;
 use mpm_verify::study::level_problem;
 use mpm_verify::subject::PlaneState;
-use mpm_verify::suite::Suite;
-use mpm_verify::suite::yaml::Source;
 use rstest::rstest;
 
 /// Mass and centre of mass must equal those of the body, by Green's theorem. For a body of
@@ -13,8 +12,7 @@ use rstest::rstest;
 #[case::not_convex(include_str!("../../../verification/bodies-at-large-strain/mms-polygon-angle.yaml"))]
 #[case::of_revolution(include_str!("../../../verification/axisymmetry-and-plane-stress/mms-polygon-axisymmetric.yaml"))]
 fn mass_and_centre_of_mass_are_exact(#[case] text: &str) {
-    let suite = Suite::load(&Source::from_text("suite.yaml", text).unwrap());
-    let suite = suite.unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let suite = valid_suite(text);
     let plan = suite.convergence().unwrap();
     let corners = plan.scene.outline.as_ref().unwrap().trace();
     let next = corners.iter().cycle().skip(1);

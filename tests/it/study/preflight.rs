@@ -2,7 +2,7 @@
 //! it, and one that just does not.
 
 use crate::common::folder::flat;
-use mpm_verify::embedded;
+use crate::common::{built_in_source, edited, read_suite, valid_suite};
 use mpm_verify::study::{linearisation, preflight};
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
@@ -63,13 +63,7 @@ methods:
 "#;
 
 fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
-    let mut text = sound.to_owned();
-    for (right, other) in edits {
-        assert!(text.contains(right), "the suite does not say `{right}`");
-        text = text.replacen(right, other, 1);
-    }
-    let source = Source::from_text("bar.yaml", text).expect("a text");
-    let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let (source, suite) = read_suite(&edited(sound, edits));
     preflight(&suite, &source)
 }
 
@@ -173,15 +167,13 @@ fn just_does_not_trip(#[case] edits: &[(&str, &str)]) {
 #[case::beyond(0.51, 1)]
 #[case::just_not(0.49, 0)]
 fn heat_has_a_stable_step(#[case] share: f64, #[case] warnings: usize) {
-    let source = embedded::source("thermal-fin").expect("a suite").expect("a text");
+    let source = built_in_source("thermal-fin");
     let text = source.text();
     let dt = text.lines().find(|line| line.starts_with("run:")).expect("a run");
     let (before, after) = (dt.find("dt: \"").expect("a step"), dt.rfind('"').expect("its end"));
     let step = format!("dt: \"{share}*h^2*rho*c/k");
     let text = text.replace(dt, &format!("{}{step}{}", &dt[..before], &dt[after..]));
-    let source = Source::from_text("fin.yaml", text).expect("a text");
-    let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
-    let found = preflight(&suite, &source);
+    let found = findings(&text, &[]);
     let of_heat = found
         .iter()
         .filter(|found| found.message().contains("stable time step of heat conduction"));
@@ -227,7 +219,7 @@ fn an_interface_must_lie_on_a_grid_line() {
 
 #[test]
 fn a_loaded_face_inside_a_cell_is_noted() {
-    let source = embedded::source("steffen-bar-small-load").expect("a suite").expect("a text");
+    let source = built_in_source("steffen-bar-small-load");
     let found = findings(source.text(), &[]);
     let words = "with 10 cells the loaded right face at 1.0000 m is 0.30 cells away";
     assert!(found[0].message().contains(words), "{found:#?}");
@@ -266,7 +258,7 @@ fn a_linearised_solution(
     #[case] message: &str,
     #[case] words: &str,
 ) {
-    let source = embedded::source("acoustic-column").expect("a suite").expect("a text");
+    let source = built_in_source("acoustic-column");
     let found = findings(source.text(), edits);
     let tripped = found.iter().find(|found| found.message().contains(message));
     let tripped = tripped.unwrap_or_else(|| panic!("no `{message}` in {found:#?}"));
@@ -278,15 +270,14 @@ fn a_linearised_solution(
 /// term is (w l/c)^4 l/5 = 2e-5 m at the ends. Unlike a free mass, the rod does not drift away.
 #[test]
 fn residual_displaces_a_stiff_body_quasi_statically() {
-    let source = embedded::source("rotating-rod").expect("a suite").expect("a text");
+    let source = built_in_source("rotating-rod");
     let text = source.text().replace("e*(p1(s) + e*(p2(s) + e*(p3(s) + e*p4(s))))", "e*p1(s)");
     let is_used = |line: &&str| !["  p2(", "  p3(", "  p4("].iter().any(|p| line.starts_with(p));
     let text = text.lines().filter(is_used).collect::<Vec<&str>>().join("\n");
     let linearised =
         "  linearised: {tolerance: 0.01, because: one term}\n  displacement:\n    - \"cos";
     let text = text.replace("  displacement:\n    - \"cos", linearised);
-    let suite = Suite::load(&Source::from_text("rod.yaml", &text).expect("a text"));
-    let suite = suite.unwrap_or_else(|refused| panic!("{refused}"));
+    let suite = valid_suite(&text);
     let error = linearisation(&suite).expect("a linearised solution").error;
     assert!((2e-5..100.0 * 2e-5).contains(&error), "{error:e}");
 }
@@ -300,15 +291,14 @@ fn residual_displaces_a_stiff_body_quasi_statically() {
 #[case::a_pulse_in_a_bar(PULSE.to_owned(), 3.4e-9)]
 #[case::a_pulse_in_a_bar_that_runs_longer(PULSE.replace("until: 0.1", "until: 0.12"), 5.1e-9)]
 fn the_error_of_a_linearised_solution_is_estimated(#[case] text: String, #[case] measured: f64) {
-    let suite = Suite::load(&Source::from_text("linear.yaml", &text).expect("a text"));
-    let suite = suite.unwrap_or_else(|refused| panic!("{refused}"));
+    let suite = valid_suite(&text);
     let error = linearisation(&suite).expect("a linearised solution").error;
     let ratio = error / measured;
     assert!((0.7..1.4).contains(&ratio), "{error:e} for {measured:e}");
 }
 
 fn embedded_text(name: &str) -> String {
-    embedded::source(name).expect("a suite").expect("a text").text().to_owned()
+    built_in_source(name).text().to_owned()
 }
 
 /// Returns the suite of docs/grammar/truth.md.
@@ -346,7 +336,7 @@ methods:
 /// A tolerance of a hundred times the residual causes no note.
 #[test]
 fn a_tolerance_with_some_room_is_not_noted() {
-    let source = embedded::source("acoustic-column").expect("a suite").expect("a text");
+    let source = built_in_source("acoustic-column");
     let found = findings(source.text(), &[("5e-6", "1.9e-4")]);
     assert!(!found.iter().any(|found| found.message().contains("may be left")), "{found:#?}");
 }

@@ -10,6 +10,7 @@
 //! difference of their displacements at the end. `docs/single-precision.md` derives the prediction
 //! and contains the table.
 
+use crate::common::built_in_suite;
 use mpm_verify::embedded;
 use mpm_verify::prelude::{Extent, Suite};
 use mpm_verify::study::{TimeStep, subject, time_steps};
@@ -173,8 +174,7 @@ fn rounding_errors_of_suites_lie_within_the_predicted_range() {
 /// State of the particles and nodes of a bar after three steps.
 #[test]
 fn state_is_rounded_only_if_single_precision_is_stated() {
-    let source = embedded::source("single-precision-bar").expect("a suite").expect("text");
-    let suite = Suite::load(&source).expect("a suite");
+    let suite = built_in_suite("single-precision-bar");
     let plan = suite.convergence().expect("a convergence study");
     let is_rounded = |index: usize| {
         let case = &plan.cases[index];

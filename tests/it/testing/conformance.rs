@@ -1,8 +1,8 @@
 //! The contract of a subject: the built-in solver fulfils it. For each rule there is a subject that
 //! violates only this rule.
 
-use super::own_solver::{OwnSolver, SWINGING_BAR, suite};
-use mpm_verify::embedded;
+use super::own_solver::{OwnSolver, SWINGING_BAR};
+use crate::common::{built_in_suite, valid_suite};
 use mpm_verify::prelude::*;
 use mpm_verify::study;
 use mpm_verify::testing::conformance_on;
@@ -203,7 +203,7 @@ fn each_breach_is_found_and_said(
     #[case] expected: &str,
     #[case] seen: &str,
 ) {
-    let breaches = OurSolver::new(suite(SWINGING_BAR), fault).breaches();
+    let breaches = OurSolver::new(valid_suite(SWINGING_BAR), fault).breaches();
     let of_part = breaches.iter().find(|breach| breach.about == about);
     let breach = of_part.unwrap_or_else(|| panic!("nothing about {about}: {breaches:#?}"));
     assert!(breach.expected.contains(expected) && breach.seen.contains(seen), "{breach}");
@@ -215,11 +215,10 @@ fn each_breach_is_found_and_said(
 
 #[test]
 fn built_in_solver_meets_the_contract() {
-    let bar = OurSolver::new(suite(SWINGING_BAR), Fault::Nothing).breaches();
+    let bar = OurSolver::new(valid_suite(SWINGING_BAR), Fault::Nothing).breaches();
     assert!(bar.is_empty(), "{bar:#?}");
     for name in ["mms-periodic-bar-sin", "mms-axis-aligned-2d", "rotating-disk", "two-disks"] {
-        let source = embedded::source(name).expect("a suite").expect("a text");
-        let suite = Suite::load(&source).expect("a sound suite");
+        let suite = built_in_suite(name);
         let breaches = OurSolver::new(suite, Fault::Nothing).breaches();
         assert!(breaches.is_empty(), "{name}: {breaches:#?}");
     }
@@ -255,6 +254,6 @@ fn solver_without_a_supported_suite_gets_the_reason() {
     for words in ["problem: ", "vibrating-bar: a bad day", "the solver lacks dimensions: 2"] {
         assert!(breaches[0].to_string().contains(words), "{}", breaches[0]);
     }
-    let breaches = conformance_on(&Refuses, &suite(SWINGING_BAR));
+    let breaches = conformance_on(&Refuses, &valid_suite(SWINGING_BAR));
     assert!(breaches[0].seen.contains("a bad day"), "{breaches:#?}");
 }

@@ -8,8 +8,7 @@ const SNAPSHOT: &str = include_str!("../../../examples/own_solver/suites/swingin
 
 /// Creates a folder with the suite of the example, and its snapshot in another folder.
 fn folder() -> Folder {
-    let folder = Folder::new();
-    folder.write("suites/swinging-bar.yaml", SWINGING_BAR);
+    let folder = Folder::with("suites/swinging-bar.yaml", SWINGING_BAR);
     folder.write("kept/swinging-bar.snap", SNAPSHOT);
     folder
 }

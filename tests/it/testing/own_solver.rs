@@ -6,6 +6,7 @@ pub(crate) mod solver;
 #[path = "../../../examples/own_solver/subject.rs"]
 mod subject;
 
+use crate::common::valid_suite;
 use mpm_verify::prelude::*;
 use rstest::rstest;
 pub(crate) use subject::OwnSolver;
@@ -16,10 +17,6 @@ const TOLERANCE: f64 = 1e-8;
 /// The suite of the example.
 pub(crate) const SWINGING_BAR: &str =
     include_str!("../../../examples/own_solver/suites/swinging-bar.yaml");
-
-pub(crate) fn suite(text: &str) -> Suite {
-    Suite::load(&Source::from_text("bar.yaml", text).expect("a text")).expect("a sound suite")
-}
 
 /// Returns the judged errors, level by level.
 fn errors(outcome: &CaseOutcome) -> Vec<f64> {
@@ -37,7 +34,7 @@ fn errors(outcome: &CaseOutcome) -> Vec<f64> {
     SWINGING_BAR.replace("poisson: 0", "poisson: 0.3").replace("sqrt(E)", "sqrt(E*0.7/(1.3*0.4))")
 )]
 fn example_solver_has_the_errors_of_the_built_in_solver(#[case] text: String) {
-    let ours = suite(&text);
+    let ours = valid_suite(&text);
     let theirs = under(&ours, &OwnSolver, false).expect("a convergence study");
     let ours = errors(&Runner::new(&ours).case(0, &|| ()));
     let outcome = Runner::new(&theirs).judging(&OwnSolver).case(0, &|| ());

@@ -1,7 +1,8 @@
 //! Stability studies of an external solver.
 
+use super::own_solver::OwnSolver;
 use super::own_solver::solver::Bar;
-use super::own_solver::{OwnSolver, suite};
+use crate::common::valid_suite;
 use mpm_verify::prelude::*;
 use mpm_verify::study::lacking;
 use mpm_verify::verify::StabilityRow;
@@ -105,7 +106,7 @@ impl SolverFactory for Silent {
 }
 
 fn judged(text: &str, solver: &dyn SolverFactory) -> CaseOutcome {
-    let theirs = under(&suite(text), solver, true).expect("a study of a solver");
+    let theirs = under(&valid_suite(text), solver, true).expect("a study of a solver");
     Runner::new(&theirs).judging(solver).case(0, &|| ())
 }
 
@@ -115,7 +116,7 @@ fn rows(outcome: &CaseOutcome) -> &[StabilityRow] {
 
 #[test]
 fn equal_algorithms_have_equal_growth() {
-    let ours = Runner::new(&suite(MOVING_BAR)).case(0, &|| ());
+    let ours = Runner::new(&valid_suite(MOVING_BAR)).case(0, &|| ());
     let theirs = judged(MOVING_BAR, &WatchedSolver);
     assert_eq!((theirs.case.as_str(), theirs.result().name()), ("watched", "explored"));
     let verdicts: Vec<&str> =
@@ -135,7 +136,7 @@ fn limit_is_found_by_runs() {
         "sweep: {C: [0.2, 0.5, 3]}",
         "sweep: {rho: [1, 4]}\ncritical: {parameter: C, from: 0.1, to: 4}",
     );
-    let ours = Runner::new(&suite(&text)).case(0, &|| ());
+    let ours = Runner::new(&valid_suite(&text)).case(0, &|| ());
     let theirs = judged(&text, &WatchedSolver);
     let limits = |outcome: &CaseOutcome| -> Vec<_> {
         rows(outcome).iter().map(|row| row.critical.as_ref().unwrap().observed).collect()
@@ -169,7 +170,7 @@ fn study_beyond_the_protocol_is_listed_as_lacking(
     #[case] to: &str,
     #[case] words: &str,
 ) {
-    let suite = suite(&MOVING_BAR.replace(from, to));
+    let suite = valid_suite(&MOVING_BAR.replace(from, to));
     let lacks = lacking(&suite, &WatchedSolver);
     assert_eq!(lacks, [format!("{words}, which the protocol does not support")]);
 }
