@@ -13,7 +13,6 @@ mod formula;
 mod fuzz_corpus;
 mod judge;
 mod motions;
-mod pitfalls;
 mod schema;
 mod study;
 mod testing;

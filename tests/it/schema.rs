@@ -1,5 +1,6 @@
 //! Tests of the printed schemas on valid and invalid suites.
 
+use crate::common::built_in_source;
 use crate::common::json_schema::JsonSchema;
 use mpm_verify::embedded;
 use mpm_verify::suite::yaml::{self, Diagnostic, Source};
@@ -35,19 +36,17 @@ fn is_of_shape(complaint: &Diagnostic) -> bool {
 
 /// Asserts that the schema also refuses a suite if its mistake is about keys, types or names.
 pub(crate) fn refuses_too(text: &str, complaint: &Diagnostic) {
-    let (message, label) = (complaint.message(), complaint.label().unwrap_or_default());
-    let is_shape = |(start, words)| {
-        message.starts_with(start) && format!("{message}\n{label}").contains(words)
-    };
-    let is_shape = SHAPE.into_iter().any(is_shape);
-    let Some(values) = values(text).filter(|_| is_shape) else { return };
+    let Some(values) = values(text).filter(|_| is_of_shape(complaint)) else { return };
     assert!(SUITE.refusal(&values).is_some(), "the schema accepts: {complaint}");
 }
 
 #[test]
-fn every_suite_conforms_to_the_schema() {
+fn every_suite_is_built_in_and_conforms_to_the_schema() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("verification");
+    let files = Source::files_in(&folder).expect("suites");
+    assert_eq!(embedded::names().count(), files.len());
     for name in embedded::names() {
-        let source = embedded::source(name).expect("a suite").expect("a text");
+        let source = built_in_source(name);
         let refusal = SUITE.refusal(&values(source.text()).expect("YAML"));
         assert_eq!(refusal, None, "{name}");
     }
@@ -106,7 +105,7 @@ fn schema_and_program_agree_about_each_type() {
 fn schema_and_program_agree(types: usize) {
     let (mut tried, mut counts) = (HashSet::new(), [0, 0]);
     let read = |name| {
-        let source = embedded::source(name).expect("a suite").expect("a text");
+        let source = built_in_source(name);
         let mut suite = values(source.text()).expect("YAML");
         shorten(&mut suite);
         (name, suite)

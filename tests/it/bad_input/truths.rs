@@ -2,6 +2,7 @@
 
 use super::samples::{BAR, COLUMN, PLATE, PULLED};
 use super::{Edits, refused};
+use crate::common::{edited, valid_suite};
 use rstest::rstest;
 
 /// Asserts an error with a position, a time and both values, in addition to `words`.
@@ -72,6 +73,10 @@ fn a_displacement_that_is(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     &[("[\"-g\"]", "[\"g\"]"), ("    - \"fall(t) -", "    - ▸\"fall(t) -")],
     &["equation of motion in X", "expected 1.962000e4, found 0.000000e0 N/m3"]
 )]
+#[case::no_gravity(
+    &[("    - gravity: [\"-g\"]\n", "    - gravity: [\"0*g\"]\n"), ("    - \"fall(t) -", "    - ▸\"fall(t) -")],
+    &["equation of motion in X"]
+)]
 #[case::a_wave_of_another_speed(
     &[("\"sqrt(E/rho)\"", "\"1.05*sqrt(E/rho)\""), ("    - \"fall(t) -", "    - ▸\"fall(t) -")],
     &["equation of motion in X", "N/m3 (off by "]
@@ -106,9 +111,7 @@ fn a_pulled_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 #[test]
 fn bar_with_a_hundred_oscillations_is_valid() {
     let long = BAR.replace("until: 0.5, dt: 1e-3", "until: 1000, dt: 1e-2");
-    if let Err(diagnostic) = super::load(&long) {
-        panic!("{diagnostic}");
-    }
+    valid_suite(&long);
 }
 
 const FORCED: &str =
@@ -174,14 +177,8 @@ fn a_manufactured_motion_is_refused_with(#[case] edits: Edits<'_>, #[case] words
     ]
 )]
 fn force_can_be_manufactured_for_hencky(#[case] sound: &str, #[case] edits: Edits<'_>) {
-    let mut text = sound.replace("neo_hookean", "hencky").replace("linear_elastic", "hencky");
-    for (right, other) in edits {
-        assert!(text.contains(right), "the suite does not say `{right}`");
-        text = text.replacen(right, other, 1);
-    }
-    if let Err(diagnostic) = super::load(&text) {
-        panic!("{diagnostic}");
-    }
+    let text = sound.replace("neo_hookean", "hencky").replace("linear_elastic", "hencky");
+    valid_suite(&edited(&text, edits));
 }
 /// Creates the suite `FORCED` with a stated force (for nu = 0) instead of a manufactured one.
 fn with_its_force(force: &str) -> String {
@@ -199,9 +196,7 @@ const FORCE: &str = "pi^2*u(X, t)/rho*E*(0.5*(1 + 1/f(X, t)^2) - 1)";
 
 #[test]
 fn correct_stated_force_is_accepted() {
-    if let Err(diagnostic) = super::load(&with_its_force(FORCE)) {
-        panic!("{diagnostic}");
-    }
+    valid_suite(&with_its_force(FORCE));
 }
 
 #[rstest]
