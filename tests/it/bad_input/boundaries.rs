@@ -1,7 +1,8 @@
 //! Boundary conditions and loads on sets: unknown keys, and motions that violate them.
 
 use super::samples::{BAR, PLATE};
-use super::{Edits, load, refused};
+use super::{Edits, refused};
+use crate::common::{edited, valid_suite};
 use rstest::rstest;
 
 /// A periodic bar.
@@ -66,6 +67,14 @@ expect:
     because: two levels support no claim
 "#;
 
+/// Changes the ring: it is stretched to the length of a longer grid.
+const STRETCHED: Edits<'_> = &[
+    ("A: 0.01", "V: 2"),
+    ("  material", "  grid: {from: [0], to: [1.2]}\n  material"),
+    ("manufactured:", "exact:\n  equation: neo_hookean"),
+    ("A*sin(2*pi*X)*sin(pi*t)", "0.2*X + V*t"),
+];
+
 /// Changes the vibrating bar: the motion of its far end is prescribed.
 const DRIVEN: Edits<'_> = &[
     ("grid: {from: [0], to: [L + 5]}", "grid: {from: [0], to: [L]}"),
@@ -83,25 +92,16 @@ const PUSHED: Edits<'_> = &[
     ("  loads:", "  sets: {all: {box: {from: [-1], to: [2]}}}\n  loads:"),
 ];
 
-fn edited(sound: &str, edits: Edits<'_>) -> String {
-    edits.iter().fold(sound.to_owned(), |text, (right, wrong)| {
-        assert!(text.contains(right), "the suite does not say `{right}`");
-        text.replacen(right, wrong, 1)
-    })
-}
-
 #[rstest]
 #[case::a_ring(RING, &[])]
-#[case::a_block_on_a_slope(SLOPE, &[])]
+#[case::a_stretched_ring(RING, STRETCHED)]
 #[case::a_square_between_rollers(SQUARE, &[])]
 #[case::a_driven_bar(BAR, DRIVEN)]
 #[case::a_roller_in_one_dimension(BAR, &[("left: fixed", "left: roller")])]
 #[case::a_plate_on_rollers(PLATE, &[("{left: fixed}", "{left: roller, bottom: roller, top: roller}")])]
 #[case::a_plate_without_ends_across(PLATE, &[("{left: fixed}", "{left: fixed, bottom: periodic, top: periodic}")])]
 fn sound(#[case] text: &str, #[case] edits: Edits<'_>) {
-    if let Err(diagnostic) = load(&edited(text, edits)) {
-        panic!("{diagnostic}");
-    }
+    valid_suite(&edited(text, edits));
 }
 
 #[rstest]
@@ -266,11 +266,25 @@ fn prescribed_velocity_must_agree_with_the_motion() {
 fn a_force_on_a_set_enters_the_equation_of_motion() {
     let column = include_str!("../../../verification/the-talk/fem-oedometer.yaml");
     let right = edited(column, PUSHED);
-    if let Err(diagnostic) = load(&right) {
-        panic!("{diagnostic}");
-    }
+    valid_suite(&right);
     let half = right
         .replace("to: [2]}}}", "to: [0.5]}}}")
         .replace("    - \"fall(t) -", "    - ▸\"fall(t) -");
     refused(&half, &[], &["equation of motion in X, rho0 u_tt = Div P + rho0 b"]);
+}
+
+#[rstest]
+#[case::a_reference_place(
+    "scheme: musl",
+    "scheme: musl, frame: ▸total_lagrangian",
+    "`total_lagrangian` needs a periodic grid as long as the body"
+)]
+#[case::a_motion_of_another_period(
+    "[\"0.2*X",
+    "[▸\"0.19*X",
+    "left is periodic, but x_X does not differ by one period"
+)]
+#[case::a_motion_that_does_not_stretch("[\"0.2*X + V*t", "[▸\"V*t", "expected 1.2")]
+fn a_stretched_ring_with(#[case] right: &str, #[case] wrong: &str, #[case] words: &str) {
+    refused(&edited(RING, STRETCHED), &[(right, wrong)], &[words]);
 }

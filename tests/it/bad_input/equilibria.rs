@@ -1,6 +1,6 @@
 //! Bodies that come to rest, and the damping that they need.
 
-use super::{Edits, load, refused};
+use super::{Edits, refused};
 use rstest::rstest;
 
 /// A column that settles under its weight.
@@ -10,11 +10,6 @@ const SETTLED: &str =
 const MPM: &str = "methods:\n";
 const FEM: &str = "methods:\n  - ▸fem: {element: linear, mass: lumped}\n";
 const STATE: &str = "equilibrium:\n  equation: hencky";
-
-#[test]
-fn unchanged_column_is_valid() {
-    load(SETTLED).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
-}
 
 #[rstest]
 #[case::of_another_load(

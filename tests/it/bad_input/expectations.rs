@@ -46,14 +46,6 @@ fn expectations_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 }
 
 #[rstest]
-#[case::a_scheme_twice(
-    &[("- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}", "- ▸mpm: {basis: linear, transfer: flip, scheme: [musl, musl]}")],
-    &["the case `mpm-linear-flip-musl` appears twice", "the second time"]
-)]
-#[case::a_method_twice(
-    &[("  - fem:", "  - ▸mpm: {basis: linear, transfer: flip, scheme: usl}\n  - fem:")],
-    &["the case `mpm-linear-flip-usl` appears twice", "the second time"]
-)]
 #[case::none(
     &[
         ("methods:\n", "methods: ▸[]\n"),

@@ -41,7 +41,6 @@ use rstest::rstest;
 #[case::an_unknown_basis(&[("basis: linear", "basis: ▸liner")], &["unknown name `liner`", "did you mean `linear`?"])]
 #[case::an_unknown_scheme(&[("[musl, usl]", "[▸mulsl, usl]")], &["unknown name `mulsl`", "did you mean `musl`?"])]
 #[case::an_unknown_method(&[("- fem:", "- ▸fme:")], &["unknown name `fme`", "did you mean `fem`?"])]
-#[case::an_unknown_norm(&[("norm: rms", "norm: ▸rsm")], &["unknown name `rsm`", "did you mean `rms`?"])]
 #[case::an_unknown_study(
     &[("suite: bar", "suite: bar\nstudy: ▸convergance")],
     &["unknown name `convergance`", "did you mean `convergence`?"]

@@ -1,6 +1,7 @@
 //! Heat, bodies at rest, and thermal expansion.
 
-use super::{Edits, load, refused};
+use super::{Edits, refused};
+use crate::common::valid_suite;
 use rstest::rstest;
 
 /// A bar at rest that cools through one end.
@@ -23,13 +24,6 @@ const RIGHT: &str = "boundary: {right: {convection: {coefficient: b, ambient: Ta
 const SOURCE: &str = "source: \"-b*(T - Ta)/rho\"";
 const METHOD: &str = "  - heat: {basis: [linear, cpgimp, quadratic_bspline, cubic_bspline]}";
 const EXPANSION: &str = "    - thermal_expansion: {coefficient: alpha, reference: T0}";
-
-#[test]
-fn unchanged_samples_are_valid() {
-    for text in [COOLED, FIN, PLATE, MOVING, HELD] {
-        load(text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
-    }
-}
 
 #[rstest]
 #[case::a_root_with_a_slip(
@@ -129,7 +123,7 @@ fn source_without_temperature_may_use_the_name() {
     let own = COOLED.replace("  Ta: 20", "  T: 20\n  Ta: T");
     let sourced = own.replace("capacity: c\n", "capacity: c\n        source: 0*X\n");
     assert!(own != COOLED && sourced != own);
-    load(&sourced).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    valid_suite(&sourced);
 }
 
 #[rstest]

@@ -1,12 +1,11 @@
 //! Initial stresses: invalid laws, scenes and studies, and exact solutions that do not balance the
 //! stresses.
 
-use super::{Edits, load, refused};
+use super::{Edits, refused};
 use rstest::rstest;
 
 const BAR: &str = include_str!("../../../verification/equilibrium/prestressed-bar.yaml");
 const SLOPE: &str = include_str!("../../../verification/equilibrium/geostatic-slope.yaml");
-const COLUMN: &str = include_str!("../../../verification/equilibrium/geostatic-column-moving.yaml");
 const RATE: &str = include_str!("../../../verification/equilibrium/released-bar.yaml");
 const LONG: &str = include_str!("../../../verification/conservation/vibrating-bar-long.yaml");
 const HEATED: &str = include_str!("../../../verification/heat/thermal-expansion-clamped.yaml");
@@ -15,15 +14,6 @@ const SOIL: &str = include_str!("../../../verification/soils/geostatic-mohr-coul
 const PATH: &str = include_str!("../../../verification/soils/path-mohr-coulomb-stressed.yaml");
 const CLAY: &str = include_str!("../../../verification/soils/clay-at-rest.yaml");
 const FROZEN: &str = include_str!("../../../verification/stability/courant-limit.yaml");
-
-#[test]
-fn sound() {
-    for text in [BAR, SLOPE, COLUMN, RATE, LONG, HEATED, RIGID, SOIL, PATH, CLAY, FROZEN] {
-        if let Err(diagnostic) = load(text) {
-            panic!("{diagnostic}");
-        }
-    }
-}
 
 /// Some laws, scenes and studies do not allow an initial stress.
 #[rstest]
@@ -64,11 +54,6 @@ fn sound() {
     RIGID,
     &[("  loads:", "  ▸initial_stress: {xx: 1}\n  loads:")],
     &["a `rigid` body does not support an initial stress"]
-)]
-#[case::a_component_of_the_plane_on_a_line(
-    BAR,
-    &[("{xx: S0}", "{xx: S0, ▸xy: 1}")],
-    &["`xy` is not a stress component in 1-D", "components: `xx`"]
 )]
 #[case::a_component_below_the_diagonal(
     SLOPE,

@@ -60,10 +60,3 @@ fn a_panel_has_no_checked_solution() {
     let edits = [PANEL, ("exact:", "▸exact:")];
     refused(PLATE, &edits, &["a solution can be checked in a box or a body with a free rim"]);
 }
-
-#[test]
-fn no_heat_flows_in_a_panel() {
-    let heat = "  loads:\n    - ▸heat: {conductivity: 1, capacity: 1}\n  initial_velocity";
-    let words = ["heat is supported in a `box` only, but the body is of kind `quadrilateral`"];
-    refused(PLATE, &[PANEL, ("  initial_velocity", heat)], &words);
-}

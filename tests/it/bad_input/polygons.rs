@@ -1,8 +1,8 @@
 //! Polygons: invalid corners, names of faces that a polygon does not have, and keys that need
 //! another body.
 
-use super::samples::PLATE;
-use super::{Edits, load, refused};
+use super::{Edits, refused};
+use crate::common::valid_suite;
 use rstest::rstest;
 
 const TRIANGLE: &str =
@@ -81,26 +81,7 @@ fn a_polygon(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 #[test]
 fn corners_may_be_listed_in_either_orientation() {
     let turned = TRIANGLE.replace(CORNERS, "[[0.4, 0.9], [0.95, 0.25], [0.1, 0.15]]");
-    if let Err(diagnostic) = load(&turned) {
-        panic!("{diagnostic}");
-    }
-}
-
-#[test]
-fn no_heat_flows_in_a_polygon() {
-    let edits = [
-        ("box: {from: [0, 0], to: [1, 0.5]}", "polygon: [[0, 0], [1, 0], [0, 1]]"),
-        ("  boundary: {left: fixed}\n", ""),
-        (
-            "  initial_velocity",
-            "  loads:\n    - ▸heat: {conductivity: 1, capacity: 1}\n  initial_velocity",
-        ),
-    ];
-    refused(
-        PLATE,
-        &edits,
-        &["heat is supported in a `box` only, but the body is of kind `polygon`"],
-    );
+    valid_suite(&turned);
 }
 
 const DISKS: &str = include_str!("../../../verification/contact-and-friction/two-disks.yaml");
@@ -117,7 +98,5 @@ fn a_corner_within_a_disk_is_refused() {
 fn a_polygon_may_lie_around_a_disk() {
     let polygon = "- body: {polygon: [[0.1, 0.9], [0.9, 0.1], [0.9, 0.9]]}";
     assert!(DISKS.contains(SECOND));
-    if let Err(diagnostic) = load(&DISKS.replace(SECOND, polygon)) {
-        panic!("{diagnostic}");
-    }
+    valid_suite(&DISKS.replace(SECOND, polygon));
 }

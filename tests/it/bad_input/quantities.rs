@@ -2,6 +2,7 @@
 
 use super::samples::BAR;
 use super::{Edits, refused};
+use crate::common::valid_suite;
 use rstest::rstest;
 
 const EXPECTED: &str = "    verdict: too_few_levels\n    finest_pair: [1.5, 2.5]\n";
@@ -207,9 +208,11 @@ fn a_place_that_is_not_observed() {
     );
 }
 
-#[test]
-fn a_drift_of_finite_elements() {
-    let bound = FEM_EXPECTED.replace("verdict: too_few_levels", "▸drift: {momentum: 1e-12}");
+#[rstest]
+#[case::its_drift("▸drift: {momentum: 1e-12}")]
+#[case::its_rate("▸energy_rate: [-1, 1]")]
+fn a_sum_of_finite_elements(#[case] bound: &str) {
+    let bound = FEM_EXPECTED.replace("verdict: too_few_levels", bound);
     let words = ["the built-in FEM does not compute the sums whose drift is bounded here"];
     refused(BAR, &[(FEM_EXPECTED, &bound)], &words);
 }
@@ -224,17 +227,9 @@ fn an_energy_that_there_is_not(#[case] bound: &str) {
 }
 
 #[test]
-fn a_rate_of_finite_elements() {
-    let bound = FEM_EXPECTED.replace("verdict: too_few_levels", "▸energy_rate: [-1, 1]");
-    refused(BAR, &[(FEM_EXPECTED, &bound)], &["the built-in FEM does not compute the sums"]);
-}
-
-#[test]
 fn suite_with_bounds_and_one_level_is_valid() {
     let bounds = "    error_below: \"v0\"\n    error_above: 1e-9\n    drift: {mass: 1e-14}\n    observed_within: 1\n";
     let text = BAR.replace(EXPECTED, bounds).replace("cells: [6, 12]", "cells: 12");
     let text = text.replace("{norm: rms}", "{of: velocity, norm: max_linf, scale: v0}");
-    if let Err(diagnostic) = super::load(&text) {
-        panic!("{diagnostic}");
-    }
+    valid_suite(&text);
 }

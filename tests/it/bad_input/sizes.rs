@@ -58,28 +58,22 @@ fn a_million_levels() {
     );
 }
 
-#[test]
-fn lists_whose_product_is_a_thousand_million_cases() {
+#[rstest]
+#[case(BAR, "flip, scheme: [musl, usl]", 1000)]
+#[case(SWEPT, "[flip, pic, apic], scheme: [usl, usf, musl]", 500)]
+fn lists_whose_product_is_a_thousand_million_cases(
+    #[case] suite: &str,
+    #[case] transfer: &str,
+    #[case] most: usize,
+) {
     let method = format!(
         "- ▸mpm: {{basis: {}, transfer: {}, scheme: {}}}",
         list("linear", 1000),
         list("flip", 1000),
         list("usl", 1000)
     );
-    let right = "- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}";
-    let words = ["these lists give 1000000000 cases", "expected at most 1000 in a suite"];
-    refused_at_once(BAR, &[(right, &method)], &words);
-}
-
-#[test]
-fn as_many_cases_of_a_stability_study() {
-    let method = format!(
-        "- ▸mpm: {{basis: {}, transfer: {}, scheme: {}}}",
-        list("linear", 1000),
-        list("flip", 1000),
-        list("usl", 1000)
-    );
-    let right = "- mpm: {basis: linear, transfer: [flip, pic, apic], scheme: [usl, usf, musl]}";
-    let words = ["these lists give 1000000000 cases", "expected at most 500 in a suite"];
-    refused_at_once(SWEPT, &[(right, &method)], &words);
+    let right = format!("- mpm: {{basis: linear, transfer: {transfer}}}");
+    let most = format!("expected at most {most} in a suite");
+    let words = ["these lists give 1000000000 cases", &most];
+    refused_at_once(suite, &[(&right, &method)], &words);
 }

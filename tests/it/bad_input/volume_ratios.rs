@@ -1,7 +1,7 @@
 //! Averaged volume ratios in places where they have no effect.
 
 use super::samples::BAR;
-use super::{Edits, load, refused};
+use super::{Edits, refused};
 use mpm_verify::mpm::{FrameName, MaterialPlan, VolumeName, combine_volume};
 use mpm_verify::subject::PlaneState;
 use rstest::rstest;
@@ -15,15 +15,6 @@ const WAVE: &str =
 const PANEL: &str = include_str!("../../../verification/equilibrium/cooks-membrane-averaged.yaml");
 
 const BASES: &str = "- mpm: {basis: linear";
-
-#[test]
-fn sound() {
-    for text in [SHEARS, PANEL] {
-        if let Err(diagnostic) = load(text) {
-            panic!("{diagnostic}");
-        }
-    }
-}
 
 #[rstest]
 #[case::of_no_known_name(
@@ -60,43 +51,36 @@ fn a_law_in_rate_form(#[case] law: &str) {
     refused(PANEL, edits, words);
 }
 
-#[test]
-fn in_one_dimension() {
-    let edits: Edits<'_> = &[(
-        "- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}",
-        "- ▸mpm: {basis: linear, transfer: flip, scheme: musl, volume: averaged}",
-    )];
-    refused(BAR, edits, &["`volume: averaged`", "in 1-D", "volumetric locking does not occur"]);
-}
+const ENERGY: &str = "the force of `volume: averaged` does not derive from a stored energy";
 
-#[test]
-fn a_linear_fluid_in_one_dimension() {
-    assert!(COLUMN.contains("linear_fluid") && COLUMN.contains("dimension: 1"));
-    let text = COLUMN.replacen("scheme:", "volume: averaged, scheme:", 1);
-    let refused = load(&text).expect_err("a column").one_line();
-    assert!(
-        refused.contains(
-            "`volume: averaged` is not supported in 1-D: it would average the whole strain"
-        )
-    );
-}
-
-#[test]
-fn in_plane_stress() {
-    let edits: Edits<'_> =
-        &[("- mpm: {basis: linear,", "- ▸mpm: {volume: averaged, basis: linear,")];
-    refused(
-        WAVE,
-        edits,
-        &["`volume: averaged`", "`plane: stress`", "volumetric locking does not occur"],
-    );
-}
-
-#[test]
-fn around_an_axis() {
-    let text = PANEL.replacen("dimension: 2", "dimension: 2\n  plane: axisymmetric", 1);
-    let refused = load(&text).expect_err("a body of revolution").to_string();
-    assert!(refused.contains("`volume: averaged`") || refused.contains("axisymmetric"));
+#[rstest]
+#[case::in_one_dimension(
+    BAR,
+    &[("- mpm: {basis: linear,", "- ▸mpm: {volume: averaged, basis: linear,")],
+    &["`volume: averaged`", "in 1-D", "volumetric locking does not occur"]
+)]
+#[case::for_a_linear_fluid_in_one_dimension(
+    COLUMN,
+    &[("- mpm: {", "- ▸mpm: {volume: averaged, ")],
+    &["`volume: averaged` is not supported in 1-D: it would average the whole strain"]
+)]
+#[case::in_plane_stress(
+    WAVE,
+    &[("- mpm: {basis: linear,", "- ▸mpm: {volume: averaged, basis: linear,")],
+    &["`volume: averaged`", "`plane: stress`", "volumetric locking does not occur"]
+)]
+#[case::with_a_drift(SHEARS, &[("    order: ", "    ▸drift: {energy: 1e-3}\n    order: ")], &[ENERGY])]
+#[case::with_an_energy_rate(SHEARS, &[("    order: ", "    ▸energy_rate: [0.9, 1.1]\n    order: ")], &[ENERGY])]
+#[case::with_a_judged_energy(
+    SHEARS,
+    &[
+        ("methods:", "judge: {of: strain_energy}\n\nmethods:"),
+        ("volume: [particle, averaged]", "volume: ▸[particle, averaged]"),
+    ],
+    &[ENERGY]
+)]
+fn averaged_ratios(#[case] suite: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(suite, edits, words);
 }
 
 /// In a plane, every law is tried. Laws of F or of J alone can be combined with an average.
@@ -117,22 +101,4 @@ fn a_law_that_reads_neither_f_nor_j_is_refused_by_name() {
     }
     refused.sort_unstable();
     assert_eq!(refused, ["cam_clay", "green_naghdi", "jaumann", "linear_elastic", "rigid"]);
-}
-
-#[rstest]
-#[case::drift("drift: {energy: 1e-3}")]
-#[case::energy_rate("energy_rate: [0.9, 1.1]")]
-fn an_energy_to_be_bounded(#[case] bound: &str) {
-    let text = SHEARS.replacen("    order: ", &format!("    {bound}\n    order: "), 1);
-    let refused = load(&text).expect_err("an energy").to_string();
-    let reason = "the force of `volume: averaged` does not derive from a stored energy";
-    assert!(refused.contains(reason), "{refused}");
-}
-
-#[test]
-fn an_energy_to_be_judged() {
-    let text = SHEARS.replacen("methods:", "judge: {of: strain_energy}\n\nmethods:", 1);
-    let refused = load(&text).expect_err("an energy").to_string();
-    let reason = "the force of `volume: averaged` does not derive from a stored energy";
-    assert!(refused.contains(reason), "{refused}");
 }
