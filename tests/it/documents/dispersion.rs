@@ -109,14 +109,6 @@ fn path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(PAGE)
 }
 
-/// Replaces the table `name` in the page.
-fn with(page: &str, name: &str, table: &str) -> String {
-    let begin = format!("<!-- {name} -->\n");
-    let (before, rest) = page.split_once(&begin).expect("a place for the table");
-    let (_, after) = rest.split_once("<!-- end -->").expect("the end of the table");
-    format!("{before}{begin}{table}\n<!-- end -->{after}")
-}
-
 /// Returns the current page and the generated page.
 fn page() -> (String, String) {
     let page = std::fs::read_to_string(path()).expect(PAGE);
@@ -126,7 +118,9 @@ fn page() -> (String, String) {
         ("amplitude of 16 cells", amplitudes(16.0)),
         ("stability limit", limits()),
     ];
-    let expected = tables.iter().fold(page.clone(), |page, (name, table)| with(&page, name, table));
+    let expected = tables
+        .iter()
+        .fold(page.clone(), |page, (name, table)| super::with_table(&page, name, table));
     (page, expected)
 }
 

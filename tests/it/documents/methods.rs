@@ -1,5 +1,6 @@
 //! The tables of docs/methods.md show in which folders of suites each method converges.
 
+use super::with_table;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::Verdict;
@@ -107,20 +108,14 @@ fn table(part: &str, asked: &[Asked]) -> String {
     table
 }
 
-/// Replaces the table `of` in the page.
-fn with(page: &str, of: &str, table: &str) -> String {
-    let begin = format!("<!-- methods by {of} -->\n");
-    let (before, rest) = page.split_once(&begin).expect("a place for the table");
-    let (_, after) = rest.split_once("<!-- end -->").expect("its end");
-    format!("{before}{begin}{table}\n<!-- end -->{after}")
-}
-
 /// Returns the current page and the generated page.
 fn page() -> (String, String) {
     let (page, asked) = (std::fs::read_to_string(root().join(PAGE)).expect(PAGE), asked());
-    let anew = PARTS.iter().fold(with(&page, "suite", &outcomes(&asked)), |page, part| {
-        with(&page, part, &table(part, &asked))
-    });
+    let anew = PARTS
+        .iter()
+        .fold(with_table(&page, "methods by suite", &outcomes(&asked)), |page, part| {
+            with_table(&page, &format!("methods by {part}"), &table(part, &asked))
+        });
     (page, anew)
 }
 

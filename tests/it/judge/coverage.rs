@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 use rstest::rstest;
 
 use super::Random;
@@ -100,41 +101,30 @@ fn covers_in_95_per_cent(series: usize, noise: Noise) {
     for (cells, seed) in [(HALVINGS, 2024), (UNEQUAL, 2025)] {
         let count = count(series, &cells, noise, (5, 8), seed);
         let share = count.covered as f64 / series as f64;
-        assert!((share - 0.95).abs() <= 0.01, "{share}: {count:?}");
+        assert!((share - 0.95).abs() <= 0.01, "{noise:?} {share}: {count:?}");
         assert!(count.without_order * 100 < series, "{count:?}");
         assert!(count.shortened * 100 < series, "{count:?}");
     }
 }
 
-#[rstest]
-fn the_interval_of_the_judge_covers_the_true_order_in_95_per_cent(
-    #[values(
-        Noise::Normal,
-        Noise::Uniform,
-        Noise::Laplace,
-        Noise::Exponential,
-        Noise::Uneven,
-        Noise::Common
-    )]
-    noise: Noise,
-) {
-    covers_in_95_per_cent(SOME, noise);
+const NOISES: [Noise; 6] = [
+    Noise::Normal,
+    Noise::Uniform,
+    Noise::Laplace,
+    Noise::Exponential,
+    Noise::Uneven,
+    Noise::Common,
+];
+
+#[test]
+fn the_interval_of_the_judge_covers_the_true_order_in_95_per_cent() {
+    NOISES.par_iter().for_each(|noise| covers_in_95_per_cent(SOME, *noise));
 }
 
-#[rstest]
+#[test]
 #[ignore = "takes twenty times as long: `cargo test --test it covers -- --ignored`"]
-fn the_interval_of_the_judge_covers_the_true_order_in_95_per_cent_of_many(
-    #[values(
-        Noise::Normal,
-        Noise::Uniform,
-        Noise::Laplace,
-        Noise::Exponential,
-        Noise::Uneven,
-        Noise::Common
-    )]
-    noise: Noise,
-) {
-    covers_in_95_per_cent(MANY, noise);
+fn the_interval_of_the_judge_covers_the_true_order_in_95_per_cent_of_many() {
+    NOISES.par_iter().for_each(|noise| covers_in_95_per_cent(MANY, *noise));
 }
 
 /// Computes the probability that the interval of a regression over `levels` equal steps of `ln h`
