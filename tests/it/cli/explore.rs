@@ -11,8 +11,7 @@ fn open(text: &str) -> &str {
 #[test]
 fn suite_without_expectations_reports_results_and_passes() {
     let folder = Folder::with("bar.yaml", open(BAR));
-    let found = folder.call(&["run", "bar.yaml"]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = folder.call(&["run", "bar.yaml"]).ended(SOUND);
     assert_contains(
         &found.out,
         &[
@@ -39,40 +38,22 @@ fn failed_run_does_not_fail_a_suite_without_expectations() {
     let folder = Folder::new();
     let long = open(BAR).replace("dt: 1e-3", "dt: 0.2").replace("until: 0.05", "until: 20");
     folder.write("bar.yaml", long);
-    let found = folder.call(&["run", "bar.yaml", "--brief"]);
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found = folder.call(&["run", "bar.yaml", "--brief"]).ended(SOUND);
     assert_contains(&found.out, &["failed"]);
 }
 
-/// Two cases with different orders: FEM starts as a leapfrog, MPM with `v(0)`.
-const STEPS: &str = r#"suite: steps
-title: Steps
-source: a textbook
-parameters: {omega: "5*pi"}
-scene:
-  dimension: 1
-  body: {box: {from: [0], to: [1]}}
-  material: {linear_elastic: {young: 100, poisson: 0, density: 1}}
-  boundary: {left: fixed}
-  initial_velocity: ["1e-3*sin(pi*X/2)"]
-exact:
-  equation: small_strain
-  displacement: ["1e-3*sin(pi*X/2)*sin(omega*t)/omega"]
-run: {until: 0.05, dt: "h/100"}
-refine: {cells: [4, 6, 8, 12, 16], ppc: 4}
-methods:
-  - mpm: {basis: linear, transfer: flip, scheme: musl}
-  - fem: {element: linear, mass: lumped}
-"#;
+/// Creates a suite with two cases of different orders: FEM starts as a leapfrog, MPM with `v(0)`.
+fn steps() -> String {
+    let text = open(BAR).replace("short-bar", "steps").replace("dt: 1e-3", "dt: \"h/100\"");
+    text.replace("[4, 6, 8, 12]", "[4, 6, 8, 12, 16]").replace("observe: {at: [0.5]}\n", "")
+}
 
 #[test]
 fn what_is_proposed_passes() {
-    let folder = Folder::with("open.yaml", STEPS);
-    let proposed = folder.call(&["propose", "open.yaml"]);
-    assert_eq!(proposed.code, SOUND, "{}", proposed.errors);
-    folder.write("gated.yaml", format!("{STEPS}{}", proposed.out));
-    let found = folder.call(&["run", "gated.yaml", "--brief"]);
-    assert_eq!(found.code, SOUND, "{}\n{}{}", proposed.out, found.out, found.errors);
+    let folder = Folder::with("open.yaml", steps());
+    let proposed = folder.call(&["propose", "open.yaml"]).ended(SOUND);
+    folder.write("gated.yaml", format!("{}{}", steps(), proposed.out));
+    let found = folder.call(&["run", "gated.yaml", "--brief"]).ended(SOUND);
     assert_contains(&found.out, &["pass  steps::"]);
     assert!(!found.errors.contains("not a gate"), "{}", found.errors);
     assert_contains(
@@ -83,12 +64,10 @@ fn what_is_proposed_passes() {
 
 #[test]
 fn expectations_are_proposed_for_chosen_cases() {
-    let folder = Folder::with("open.yaml", STEPS);
-    let found = folder.call(&["propose", "open.yaml", "--case", "fem"]);
-    assert_eq!(found.code, SOUND, "{}", found.errors);
+    let folder = Folder::with("open.yaml", steps());
+    let found = folder.call(&["propose", "open.yaml", "--case", "fem"]).ended(SOUND);
     assert!(found.out.contains("order:") && !found.out.contains("mpm-linear"), "{}", found.out);
-    let found = folder.call(&["propose", "open.yaml", "--case", "fen"]);
-    assert_eq!(found.code, BAD_INPUT, "{}", found.out);
+    let found = folder.call(&["propose", "open.yaml", "--case", "fen"]).ended(BAD_INPUT);
     insta::assert_snapshot!(found.errors, @"error: steps: no case name contains the text of `--case`");
 }
 
@@ -96,8 +75,8 @@ fn expectations_are_proposed_for_chosen_cases() {
 fn proposals_do_not_depend_on_existing_expectations() {
     let folder = Folder::new();
     let wrong = "expect:\n  - order: [3.9, 4.1]\n    because: a guess\n";
-    folder.write("open.yaml", STEPS);
-    folder.write("wrong.yaml", format!("{STEPS}{wrong}"));
+    folder.write("open.yaml", steps());
+    folder.write("wrong.yaml", steps() + wrong);
     let proposals = ["open.yaml", "wrong.yaml"].map(|file| folder.call(&["propose", file]).out);
     assert_eq!(proposals[0], proposals[1]);
 }
@@ -105,9 +84,8 @@ fn proposals_do_not_depend_on_existing_expectations() {
 /// In addition to the results of the run, a proposal states the gain of a smaller amplitude.
 #[test]
 fn proposal_states_the_effect_of_the_amplitude() {
-    let folder = Folder::with("large.yaml", STEPS.replace("1e-3*", "0.1*"));
-    let found = folder.call(&["propose", "large.yaml"]);
-    assert_eq!(found.code, SOUND, "{}", found.errors);
+    let folder = Folder::with("large.yaml", steps().replace("1e-3*", "0.1*"));
+    let found = folder.call(&["propose", "large.yaml"]).ended(SOUND);
     let begin = found.out.split("expect:").next().expect("the part before");
     for words in ["the exact solution assumes small strains", "a tenth of the amplitude reduces"] {
         assert!(begin.replace("\n# ", " ").contains(words), "no `{words}` in\n{begin}");
@@ -117,7 +95,6 @@ fn proposal_states_the_effect_of_the_amplitude() {
 #[test]
 fn only_convergence_studies_have_proposals() {
     let folder = Folder::new();
-    let found = folder.call(&["propose", "courant-limit"]);
-    assert_eq!(found.code, BAD_INPUT);
+    let found = folder.call(&["propose", "courant-limit"]).ended(BAD_INPUT);
     insta::assert_snapshot!(found.errors, @"error: courant-limit: expectations are proposed for convergence studies only");
 }

@@ -1,11 +1,13 @@
 //! Causes that a diagnosis finds without changing the method, for methods of this crate and for
 //! external solvers.
 
+use crate::common::folder::{assert_contains, flat};
+use crate::common::read_suite;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::report;
 use mpm_verify::study::{self, diagnose, preflight, under};
 use mpm_verify::subject::{Subject, SubjectError};
-use mpm_verify::suite::yaml::{Severity, Source};
+use mpm_verify::suite::yaml::Severity;
 use mpm_verify::suite::{LevelPlan, Suite};
 use mpm_verify::verify::{Diagnosis, KnownCauseKind};
 use rstest::rstest;
@@ -61,30 +63,17 @@ fn manufactured(grid: &str, faces: &str, u: &str, until: &str, method: &str) -> 
     text.replace("UNTIL", until).replace("\"U\"", &format!("\"{u}\""))
 }
 
-fn load(text: &str) -> (Source, Suite) {
-    let source = Source::from_text("bar.yaml", text).expect("a text");
-    let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
-    (source, suite)
-}
-
 /// Diagnoses the first case.
 fn diagnosis(text: &str, budget: f64) -> Diagnosis {
-    let (source, suite) = load(text);
+    let (source, suite) = read_suite(text);
     diagnose(&suite, &source, 0, budget, None).expect("a run").expect("an order")
 }
 
 /// Returns the text of a diagnosis without line breaks. Asserts that it contains no NaN.
 fn page(found: &Diagnosis) -> String {
-    let page = report::diagnosis(found).split_whitespace().collect::<Vec<_>>().join(" ");
+    let page = flat(&report::diagnosis(found));
     assert!(!page.contains("NaN") && !page.contains("inf"), "{page}");
     page
-}
-
-#[track_caller]
-fn contains(page: &str, parts: &[&str]) {
-    for part in parts {
-        assert!(page.contains(part), "no `{part}` in\n{page}");
-    }
 }
 
 /// An external solver that runs the first method of a suite.
@@ -106,7 +95,7 @@ impl SolverFactory for External {
 
 /// Diagnoses the first method as an external solver.
 fn external_diagnosis(text: &str, budget: f64) -> Diagnosis {
-    let (source, suite) = load(text);
+    let (source, suite) = read_suite(text);
     let solver = External(suite.clone());
     let suite = under(&suite, &solver, false).expect("a convergence study");
     diagnose(&suite, &source, 0, budget, Some(&solver)).expect("a run").expect("an order")
@@ -118,7 +107,7 @@ fn external_diagnosis(text: &str, budget: f64) -> Diagnosis {
 fn a_step_beyond_the_stable_step_is_the_cause(#[case] diagnosis: fn(&str, f64) -> Diagnosis) {
     let found = diagnosis(&BAR.replace("0.2*h/c", "4*h/c"), BUDGET);
     let text = page(&found);
-    contains(
+    assert_contains(
         &text,
         &["the step is longer than the stable step, on all levels", "4.00 times", "2.00 [2.00"],
     );
@@ -130,7 +119,7 @@ fn a_step_beyond_the_stable_step_is_the_cause(#[case] diagnosis: fn(&str, f64) -
 #[case::external(external_diagnosis)]
 fn unstable_steps_on_the_first_levels_are_named(#[case] diagnosis: fn(&str, f64) -> Diagnosis) {
     let found = diagnosis(&BAR.replace("0.2*h/c", "40*h^2/c"), BUDGET);
-    contains(
+    assert_contains(
         &page(&found),
         &["longer than the stable step, on the levels with 8 cells, 12 cells, 16 cells."],
     );
@@ -140,7 +129,7 @@ fn unstable_steps_on_the_first_levels_are_named(#[case] diagnosis: fn(&str, f64)
 #[test]
 fn automatic_step_beyond_the_stable_step_is_the_cause() {
     let found = diagnosis(&BAR.replace("\"0.2*h/c\"", "{courant: 4}"), BUDGET);
-    contains(&page(&found), &["longer than the stable step, on all levels", "2.00 [2.00"]);
+    assert_contains(&page(&found), &["longer than the stable step, on all levels", "2.00 [2.00"]);
 }
 
 #[rstest]
@@ -161,7 +150,7 @@ fn a_wall_that_moves_along_its_normal_is_the_cause(#[case] u: &str, #[case] velo
     let text = manufactured("", &faces, &u.replace('v', "0.5"), "1", LINEAR);
     for found in [diagnosis(&text, BUDGET), external_diagnosis(&text, BUDGET)] {
         let text = page(&found);
-        contains(
+        assert_contains(
             &text,
             &[
                 "but walls are fixed at the end of the grid",
@@ -181,7 +170,7 @@ fn a_larger_grid_is_recommended_for_a_free_end(#[case] diagnosis: fn(&str, f64) 
     let u = "0.05*sin(pi*X/2)*sin(5*pi*t)";
     let found = diagnosis(&manufactured(grid, "left: fixed", u, "0.1", LINEAR), BUDGET);
     assert!(found.finding(KnownCauseKind::OutsideGrid).is_some() && found.runs.is_empty());
-    contains(
+    assert_contains(
         &page(&found),
         &["the grid ends where the body moves to", "a larger `grid` in `scene`"],
     );
@@ -194,9 +183,12 @@ fn a_particle_on_a_wall_is_named_with_the_refusal() {
     let text = manufactured("", "left: fixed, right: fixed", u, "0.05", LINEAR);
     let text = text.replace("to: [1]", "to: [0.9]").replace("6, 12, 18, 24", "10, 20, 40, 80");
     let text = text.replace("methods:", "particles: {shift: [0.5]}\nmethods:");
-    let (source, suite) = load(&text);
+    let (source, suite) = read_suite(&text);
     let refused = diagnose(&suite, &source, 0, BUDGET, None).expect_err("a particle is lost");
-    contains(&refused, &["left the domain", "particles start on a wall", "a smaller `shift`"]);
+    assert_contains(
+        &refused,
+        &["left the domain", "particles start on a wall", "a smaller `shift`"],
+    );
     assert!(!refused.contains("larger `grid`"), "{refused}");
 }
 
@@ -220,7 +212,7 @@ fn a_kink_in_the_exact_solution_comes_before_partial_remedies(
 ) {
     for found in [diagnosis(&impact(norm), BUDGET), external_diagnosis(&impact(norm), BUDGET)] {
         let text = page(&found);
-        contains(&text, &["Cause: the exact solution is not smooth: it has a kink", limit]);
+        assert_contains(&text, &["Cause: the exact solution is not smooth: it has a kink", limit]);
         assert!(!text.contains("mass: consistent") && !found.runs.is_empty(), "{text}");
     }
 }
@@ -254,7 +246,7 @@ fn pulse(cells: &str) -> String {
 #[case::external(external_diagnosis)]
 fn removal_of_too_coarse_levels_is_recommended(#[case] diagnosis: fn(&str, f64) -> Diagnosis) {
     let found = diagnosis(&pulse("40, 80, 160, 320, 640"), NO_RUNS);
-    contains(
+    assert_contains(
         &page(&found),
         &["Cause: the first levels are too coarse", "Remedy: leave out the level with 40 cells"],
     );
@@ -287,7 +279,7 @@ fn column(loads: &str) -> String {
 
 /// Returns the findings of `check` about missing dissipation.
 fn of_check(text: &str) -> Vec<Severity> {
-    let (source, suite) = load(text);
+    let (source, suite) = read_suite(text);
     let all = preflight(&suite, &source).into_iter();
     let about = all.filter(|found| found.message().contains("removes energy"));
     about.map(|found| found.severity()).collect()
@@ -299,7 +291,10 @@ fn equilibrium_without_damping_is_the_cause() {
     assert_eq!(of_check(&text), [Severity::Warning]);
     for found in [diagnosis(&text, BUDGET), external_diagnosis(&text, BUDGET)] {
         let text = page(&found);
-        contains(&text, &["nothing removes energy", "the body oscillates about its equilibrium"]);
+        assert_contains(
+            &text,
+            &["nothing removes energy", "the body oscillates about its equilibrium"],
+        );
         assert!(found.runs.is_empty(), "{text}");
     }
 }
@@ -321,7 +316,7 @@ fn check_warns_of_an_equilibrium_without_damping(
 fn a_body_that_has_not_come_to_rest_is_the_cause() {
     let text = column("  loads:\n    - gravity: [-g]\n    - damping: 6\n");
     let found = diagnosis(&text.replace("until: 0.4", "until: 1"), BUDGET);
-    contains(&page(&found), &["the body has not come to rest at the end of the run"]);
+    assert_contains(&page(&found), &["the body has not come to rest at the end of the run"]);
 }
 
 /// Strains of 1e-2 cause an error of second order in the amplitude.
@@ -333,11 +328,13 @@ fn error_with_a_tenth_of_the_amplitude_is_printed_unscaled() {
     let found = diagnosis(&text, BUDGET);
     let run = found.runs.iter().find(|run| run.change == "a tenth of the amplitude");
     let run = run.expect("a run with a tenth of the amplitude");
+    let (cause, _) = found.found().unwrap_or_else(|| panic!("no cause: {found:#?}"));
+    assert!(cause.change == run.change && run.ratio < 0.2, "{found:#?}");
     assert!((run.ratio - run.error / found.finest_error).abs() <= 1e-12, "{run:#?}");
     assert!((run.relative_ratio / run.ratio - 10.0).abs() <= 1e-9, "{run:#?}");
     let of =
         format!("is {:.3e}, 1/{:.0} of {:.3e}", run.error, 1.0 / run.ratio, found.finest_error);
-    contains(&page(&found), &[of.as_str(), "; relative to the exact solution, it is "]);
+    assert_contains(&page(&found), &[of.as_str(), "; relative to the exact solution, it is "]);
 }
 
 /// The error of a sum is divided by the size of the sum, which decreases with the amplitude.
@@ -358,5 +355,5 @@ fn settings_of_an_external_solver_are_not_changed() {
     let is_setting =
         |change: &str| ["`", "the consistent mass"].iter().any(|s| change.starts_with(s));
     assert!(found.runs.iter().all(|run| !is_setting(&run.change)), "{found:#?}");
-    contains(&page(&found), &["are not changed, because the solver is external"]);
+    assert_contains(&page(&found), &["are not changed, because the solver is external"]);
 }

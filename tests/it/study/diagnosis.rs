@@ -1,10 +1,9 @@
 //! Diagnoses of cases in the suites of this repository. Their authors state the causes in
 //! `because`, which a diagnosis does not read.
 
-use mpm_verify::embedded;
+use crate::common::{built_in_source, read_suite};
 use mpm_verify::study::diagnose;
 use mpm_verify::suite::Suite;
-use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::Diagnosis;
 use rstest::rstest;
 
@@ -12,7 +11,7 @@ use rstest::rstest;
 const BUDGET: f64 = 60.0;
 
 fn diagnosis(suite: &str, case: &str) -> Option<Diagnosis> {
-    let source = embedded::source(suite).expect("a built-in suite").expect("a text");
+    let source = built_in_source(suite);
     let suite = Suite::load(&source).expect("a sound suite");
     let names = suite.case_names();
     let index = names.iter().position(|name| *name == case).unwrap_or_else(|| {
@@ -84,7 +83,7 @@ fn no_cause_is_named_without_a_defect(
 
 #[test]
 fn changes_beyond_the_budget_are_listed() {
-    let source = embedded::source("vibrating-bar").expect("a suite").expect("a text");
+    let source = built_in_source("vibrating-bar");
     let suite = Suite::load(&source).expect("a sound suite");
     let usf = suite.case_names().iter().position(|name| name.ends_with("usf")).expect("USF");
     let found = diagnose(&suite, &source, usf, 1e-9, None).expect("a run").expect("an order");
@@ -93,41 +92,12 @@ fn changes_beyond_the_budget_are_listed() {
     assert!(said.contains("beyond the budget"), "{said}");
 }
 
-/// Strains of 1e-2 cause an error of this order, which vanishes with a tenth of the amplitude.
-#[test]
-fn smaller_amplitude_reveals_a_small_strain_solution() {
-    let text = r#"suite: bar
-title: Bar
-source: a textbook
-parameters: {a: 0.02, c: 10, omega: "pi/2*c"}
-scene:
-  dimension: 1
-  body: {box: {from: [0], to: [1]}}
-  material: {linear_elastic: {young: "c^2", poisson: 0, density: 1}}
-  boundary: {left: fixed}
-  initial_velocity: ["a*omega*sin(pi*X/2)"]
-exact:
-  equation: small_strain
-  displacement: ["a*sin(pi*X/2)*sin(omega*t)"]
-run: {until: 0.1, dt: "0.1*h/c"}
-refine: {cells: [8, 12, 16, 24, 32], ppc: 2}
-methods:
-  - mpm: {basis: linear, transfer: flip, scheme: musl, frame: total_lagrangian, start: half_step_back}
-"#;
-    let source = Source::from_text("bar.yaml", text).expect("a text");
-    let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
-    let found = diagnose(&suite, &source, 0, BUDGET, None).expect("a run").expect("an order");
-    let (run, _) = found.found().unwrap_or_else(|| panic!("no cause: {found:#?}"));
-    assert!(run.change == "a tenth of the amplitude" && run.ratio < 0.2, "{found:#?}");
-}
-
 /// The interface of two bars is in the middle of a cell, where linear functions have no kink.
 #[test]
 fn aligned_grid_reveals_an_interface_inside_a_cell() {
-    let source = embedded::source("bar-of-two-materials").expect("a suite").expect("a text");
+    let source = built_in_source("bar-of-two-materials");
     let text = source.text().replace("cells: [20, 40, 80, 160]", "cells: [7, 11, 17, 25]");
-    let source = Source::from_text("joint.yaml", &text).expect("a text");
-    let suite = Suite::load(&source).expect("a sound suite");
+    let (source, suite) = read_suite(&text);
     let found = diagnose(&suite, &source, 0, BUDGET, None).expect("a run").expect("an order");
     let (run, _) = found.found().unwrap_or_else(|| panic!("no cause: {found:#?}"));
     assert!(run.cause.starts_with("an interface"), "{}: {found:#?}", run.cause);
