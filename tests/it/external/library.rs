@@ -2,10 +2,10 @@
 
 use super::bar;
 use crate::common::{built_in_suite, valid_suite};
+use mpm_verify::embedded;
 use mpm_verify::external::{Capabilities, LevelProblem, ProblemNeeds, SolverFactory};
 use mpm_verify::study::{Runner, lacking, level_problem, under};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
-use mpm_verify::embedded;
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::{CaseOutcome, CaseResult};
 use rayon::prelude::*;
