@@ -36,7 +36,7 @@ class Box:
         self.v = problem.velocity * self.metre * second
         self.volume = uniform("volumes", problem.volume) * self.metre**problem.dimension
         self.density = uniform("densities", problem.mass / problem.volume)
-        parameters = problem.materials[0]["parameters"]
+        parameters = common_material(problem)["parameters"]
         self.poisson = parameters["poisson"]
         self.young = parameters["young"] / self.density * (self.metre * second) ** 2
         self.mu = self.young / (2 * (1 + self.poisson))
@@ -76,6 +76,14 @@ def uniform(what: str, values: Array) -> float:
     if np.ptp(values) > 1e-9 * abs(values[0]):
         raise Cannot(f"particles of several {what}")
     return float(values[0])
+
+
+def common_material(problem: Problem) -> Message:
+    """The material of all bodies."""
+    first, *others = problem.materials
+    if any(material != first for material in others):
+        raise Cannot("bodies of several materials")
+    return first
 
 
 def laws(able: list[str], any_law: bool) -> list[str]:

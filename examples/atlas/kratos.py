@@ -11,7 +11,7 @@ import argparse
 import itertools
 
 import numpy as np
-from box import Array, Cannot, Message, Problem, aside, laws, uniform
+from box import Array, Cannot, Message, Problem, aside, common_material, laws, uniform
 from mpm_verify import serve
 
 with aside():
@@ -40,7 +40,7 @@ class Kratos:
         self.capabilities = {
             "dimensions": [2, 3], "laws": laws(["linear_elastic", "neo_hookean"], any_law),
             "conditions": ["free", "fixed", "roller"], "loads": ["gravity", "body_force"],
-            "manufactured": True, "load_steps": scheme == "static"}
+            "manufactured": True, "load_steps": scheme == "static", "several_bodies": True}
 
     def setup(self, problem: Problem) -> None:
         self.problem, self.d = problem, problem.dimension
@@ -112,7 +112,7 @@ class Kratos:
             part.CreateNewElement(ELEMENTS[self.d], k + 1, nodes, properties)
 
     def add_body(self, part: Km.ModelPart) -> None:
-        problem, material = self.problem, self.problem.materials[0]
+        problem, material = self.problem, common_material(self.problem)
         properties = part.CreateNewProperties(1)
         law = LAWS.get((self.d, material["law"]), LAWS[self.d, "neo_hookean"])
         properties.SetValue(Km.CONSTITUTIVE_LAW, Km.KratosGlobals.GetConstitutiveLaw(law).Clone())

@@ -35,7 +35,7 @@ class Mpm99:
     def __init__(self, precision: str, any_law: bool, derivatives: str | None) -> None:
         self.bits, self.precision, self.derivatives = precision, PRECISION[precision], derivatives
         self.capabilities = {"dimensions": [2], "laws": laws(["corotated"], any_law),
-                             "conditions": ["free"], "loads": ["gravity"]}
+                             "conditions": ["free"], "loads": ["gravity"], "several_bodies": True}
         if derivatives:
             self.capabilities["gradients"] = ["young", "density", "initial_velocity"]
 

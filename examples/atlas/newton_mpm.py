@@ -1,11 +1,15 @@
-"""Newton's implicit MPM: three dimensions, Hencky's law, in single precision."""
+"""Newton's implicit MPM: three dimensions, Hencky's law, in single precision.
+
+With `--friction` it runs plane bodies with walls. The body is two layers of particles, with free
+faces in front and behind. Without lateral strain (Poisson's ratio 0) its motion is plane.
+"""
 
 from __future__ import annotations
 
 import argparse
 
 import numpy as np
-from box import Array, Message, Problem, aside, gravity, laws, uniform
+from box import Array, Cannot, Message, Problem, aside, common_material, gravity, laws, uniform
 from mpm_verify import serve
 
 with aside():
@@ -22,24 +26,38 @@ class Newton:
     version = newton.__version__
     precision = "single"
 
-    def __init__(self, any_law: bool, substeps: int, drag: float, tolerance: float,
+    def __init__(self, any_law: bool, friction: bool, substeps: int, drag: float, tolerance: float,
                  **options: str) -> None:
-        self.substeps, self.drag, self.tolerance, self.options = substeps, drag, tolerance, options
+        self.friction, self.substeps, self.drag, self.tolerance, self.options = (
+            friction, substeps, drag, tolerance, options)
         self.capabilities = {"dimensions": [3], "laws": laws(["hencky"], any_law),
-                             "conditions": ["free"], "loads": ["gravity"]}
+                             "conditions": ["free"], "loads": ["gravity"], "several_bodies": True}
+        if friction:
+            self.capabilities |= {"dimensions": [2], "conditions": ["free", "friction"],
+                                  "columns": ["stress"]}
 
     def setup(self, problem: Problem) -> None:
-        parameters = problem.materials[0]["parameters"]
+        parameters = common_material(problem)["parameters"]
         self.problem = problem
         volume, mass = uniform("volumes", problem.volume), uniform("masses", problem.mass)
         builder = newton.ModelBuilder()
         SolverImplicitMPM.register_custom_attributes(builder)
-        n = len(problem.position)
-        builder.add_particles(
-            pos=vectors(problem.position), vel=vectors(problem.velocity), mass=[mass] * n,
-            radius=[volume ** (1 / 3) / 2] * n)
-        model = builder.finalize(device="cpu")
-        model.set_gravity(tuple(map(float, gravity(problem))))
+        side = volume ** (1 / problem.dimension)
+        position, velocity = self.layers(problem.position, side), self.layers(problem.velocity, 0.0)
+        n, across = len(position), side if self.friction else 1.0
+        if self.friction and parameters["poisson"] != 0:
+            raise Cannot("plane bodies with lateral strain")
+        builder.add_particles(pos=vectors(position), vel=vectors(velocity),
+                              mass=[mass * across] * n, radius=[side / 2] * n)
+        for face in problem.faces:
+            if face["condition"] == "friction":
+                inward = [0.0, 0.0, 0.0]
+                inward[face["axis"]] = -1.0 if face["high"] else 1.0
+                rough = newton.ModelBuilder.ShapeConfig(mu=face["values"]["coefficient"])
+                builder.add_shape_plane(plane=(*inward, -inward[face["axis"]] * face["at"]),
+                                        width=0.0, length=0.0, cfg=rough)
+        self.model = model = builder.finalize(device="cpu")
+        self.pull(0.0)
         model.mpm.young_modulus.fill_(parameters["young"])
         model.mpm.poisson_ratio.fill_(parameters["poisson"])
         model.mpm.tensile_yield_ratio.fill_(1.0)
@@ -47,19 +65,38 @@ class Newton:
         model.mpm.yield_stress.fill_(1e15)
         config = SolverImplicitMPM.Config(
             voxel_size=problem.h, air_drag=self.drag, tolerance=self.tolerance, grid_type="dense",
-            grid_padding=2, solver="cg", carry_residual_strain="unconverged", **self.options)
+            grid_padding=2, solver="gauss-seidel" if self.friction else "cg",
+            carry_residual_strain="unconverged", **self.options)
         self.solver = SolverImplicitMPM(model, config=config)
         self.states = [model.state(), model.state()]
 
+    def layers(self, vectors: Array, side: float) -> Array:
+        """Vectors in space; those of a plane body are repeated in two layers, `side` apart."""
+        if not self.friction:
+            return vectors
+        across = np.repeat([-side / 2, side / 2], len(vectors))
+        return np.column_stack([np.tile(vectors, (2, 1)), across])
+
+    def pull(self, time: float) -> None:
+        """Sets the gravity."""
+        varies = self.problem.message["body_force"] == "asked"
+        value = self.problem.body_force(time)[0] if varies else gravity(self.problem)
+        self.model.set_gravity([*map(float, value), 0.0][:3])
+
     def advance(self, steps: int, dt: float, time: float) -> None:
-        for _ in range(steps * self.substeps):
+        for step in range(steps * self.substeps):
+            if self.friction:
+                self.pull(time + step * dt / self.substeps)
+                self.solver.notify_model_changed(newton.ModelFlags.MODEL_PROPERTIES)
             self.solver.step(*self.states, None, None, dt / self.substeps)
             self.states.reverse()
 
     def state(self) -> Message:
-        x, v = (array.numpy().astype(float) for array in
-                (self.states[0].particle_q, self.states[0].particle_qd))
-        return {"displacement": x - self.problem.reference_position, "velocity": v}
+        state, (n, d) = self.states[0], self.problem.position.shape
+        x, v, stress = (array.numpy().astype(float)[:n, :d] for array in
+                        (state.particle_q, state.particle_qd, state.mpm.particle_stress))
+        return {"displacement": x - self.problem.reference_position, "velocity": v,
+                "stress": stress[:, :, :d]}
 
 
 def vectors(values: Array) -> list[tuple[float, ...]]:
@@ -69,6 +106,7 @@ def vectors(values: Array) -> list[tuple[float, ...]]:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--any-law", action="store_true", help="where nothing deforms")
+    parser.add_argument("--friction", action="store_true", help="plane bodies with walls")
     parser.add_argument("--substeps", type=int, default=1, help="of each step")
     parser.add_argument("--drag", type=float, default=1e-6, help="that of the air, 1 unless said")
     parser.add_argument("--tolerance", type=float, default=1e-6, help="1e-4 unless said")

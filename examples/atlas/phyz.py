@@ -25,7 +25,7 @@ class Phyz:
     def __init__(self, program: str, flip: float, stiffness: float, any_law: bool) -> None:
         self.program, self.flip, self.stiffness = program, flip, stiffness
         self.capabilities = {"dimensions": [3], "laws": laws(["neo_hookean"], any_law),
-                             "conditions": ["free"], "loads": ["gravity"]}
+                             "conditions": ["free"], "loads": ["gravity"], "several_bodies": True}
 
     def setup(self, problem: Problem) -> None:
         self.box = box = Box(problem, PAD, self.second(problem))

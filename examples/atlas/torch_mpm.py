@@ -56,7 +56,7 @@ class MpmPytorch:
         torch.set_default_dtype({"f32": torch.float32, "f64": torch.float64}[precision])
         self.svd = {"torch": torch.linalg.svd, "bounded": Svd.apply}[svd]
         self.capabilities = {"dimensions": [3], "laws": laws(list(LAWS), any_law),
-                             "conditions": ["free"], "loads": ["gravity"],
+                             "conditions": ["free"], "loads": ["gravity"], "several_bodies": True,
                              "gradients": ["young", "poisson", "density", "initial_velocity"]}
 
     def setup(self, problem: Problem) -> None:
