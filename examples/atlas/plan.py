@@ -16,7 +16,17 @@ LAGRANGIAN = ["translating-block", "falling-block", "free-bar-pulse", "free-bar-
               "vibrating-bar", "vibrating-bar-small-amplitude", "free-bar-second-mode",
               "released-bar", "mms-fixed-bar-small", "mms-periodic-bar-sin",
               "mms-periodic-bar-cos", "free-bar-pulse-small-3d", "mms-axis-aligned-3d",
-              "two-shears-nearly-incompressible"]
+              "two-shears-nearly-incompressible", "lame-square",
+              "lame-square-nearly-incompressible", "lame-block",
+              "lame-block-nearly-incompressible"]
+# Bodies with free faces only, and the distance at which two bodies interact through the grid.
+FREE_2D = ["lame-square", "lame-square-shifted", "lame-square-rotated",
+           "lame-square-nearly-incompressible", "translating-body", "narrow-gap"]
+FREE_3D = ["lame-block", "lame-block-shifted", "lame-block-nearly-incompressible", "narrow-gap-3d"]
+FREE = FREE_2D + FREE_3D
+# Times (s) at which the runs of these suites end. A gap of 3 cells closes with one cell per second.
+GAPS = {"narrow-gap": [0.2, 0.3, 1.2, 1.3, 1.95, 2.05, 2.2, 2.3],
+        "narrow-gap-3d": [1.2, 1.3, 2.2, 2.3]}
 # For the MPM clients of this repository: locking and gases.
 EXACT = ["two-shears-nearly-incompressible", "mms-graded-bar", "gas-cloud", "gas-cloud-2d",
          "gas-cloud-3d", "spinning-cloud", "spinning-cloud-radius"]
@@ -44,10 +54,20 @@ OWN_EXACT = {
     "mpm-cubic-bspline-flip-musl": "cubic",
 }
 
+# Own methods in the table of the suites FREE.
+OWN_FREE = {
+    "mpm-linear-flip-usl": "linear, FLIP",
+    "mpm-linear-flip-musl": "linear, FLIP",
+    "mpm-linear-flip-musl-particle": "linear, FLIP",
+    "mpm-linear-apic-usl": "linear, APIC",
+    "mpm-quadratic-bspline-flip-usl": "quadratic, FLIP",
+    "mpm-quadratic-bspline-apic-usl": "quadratic, APIC",
+}
+
 
 def own_cases(suite: str) -> dict[str, str]:
     """The own methods that are compared on a suite."""
-    return OWN_EXACT if suite in EXACT else OWN
+    return OWN_EXACT if suite in EXACT else OWN_FREE if suite in FREE else OWN
 
 
 def is_gradient(suite: str) -> bool:
@@ -109,7 +129,7 @@ OFF_FACES = {"grid: {from: [0, 0.375, 0.375], to: [1, 0.625, 0.625]}":
 DT_AS_H = {"dt: 1e-3": 'dt: "0.2*h/sqrt(E/rho)"'}
 
 CODES = [
-    Code("kratos", "Kratos MPM 10.4.4", PLANE + SPACE, {"USL": ["--scheme", "usl"]}, {
+    Code("kratos", "Kratos MPM 10.4.4", SUITES, {"USL": ["--scheme", "usl"]}, {
         "central difference": (["--scheme", "central_difference"],
                                ["falling-block", "free-bar-pulse-small", "square-between-rollers"]),
         "MUSL": (["--scheme", "musl"], ["free-bar-pulse-small", "mms-axis-aligned-2d",
@@ -118,27 +138,30 @@ CODES = [
                                             "moving-bar-pulse-small-3d"]),
         "MUSL, off faces": (["--scheme", "musl"], ["free-bar-pulse-small-3d"]),
     }, {"off faces": OFF_FACES, "MUSL, off faces": OFF_FACES}),
-    Code("mpm99", "taichi mpm99 1.7.4", PLANE,
+    Code("mpm99", "taichi mpm99 1.7.4", PLANE + FREE_2D,
          {"f32": ["--precision", "f32"], "f64": ["--precision", "f64"]}, gradients={
              f"f64, {title}": (["--precision", "f64", "--derivatives", option],
                                ["gradient-free-bar-pulse"])
              for option, title in [("tape", "tape"), ("checked", "tape with checks"),
                                    ("forward", "forward mode")]}),
-    Code("torch_mpm", "mpm-pytorch 0.1.1", SPACE, {"f32": []}, {
+    Code("torch_mpm", "mpm-pytorch 0.1.1", SPACE + FREE_3D, {"f32": []}, {
         "f64": (["--precision", "f64"], ["translating-block-3d", "free-bar-pulse-hencky-3d",
-                                         "moving-bar-pulse-3d", "moving-bar-pulse-hencky-3d"]),
+                                         "moving-bar-pulse-3d", "moving-bar-pulse-hencky-3d",
+                                         "free-bar-pulse-small-3d", "moving-bar-pulse-small-3d",
+                                         *FREE_3D]),
     }, gradients={
         "f32": ([], ["gradient-free-bar-pulse-3d"]),
         "f64": (["--precision", "f64"], ["gradient-free-bar-pulse-3d"]),
         "f64, bounded adjoint": (["--precision", "f64", "--svd", "bounded"],
                                  ["gradient-free-bar-pulse-3d"]),
     }),
-    Code("newton_mpm", "newton 1.8.0", SPACE, {"f32": []}, {
+    Code("newton_mpm", "newton 1.8.0", FREE_3D + SPACE, {"f32": []}, {
         "two substeps": (["--substeps", "2"], ["free-bar-pulse-hencky-3d"]),
         "dt as h^2": ([], ["free-bar-pulse-hencky-3d"]),
     }, {"dt as h^2": {'dt: "0.2*h/c"': 'dt: "6.4*h^2/c"'}}),
-    Code("phyz", "phyz-particle 0.1.0", SPACE, {"FLIP 0.95": []}, {
-        "FLIP 1": (["--flip", "1"], ["translating-block-3d", "free-bar-pulse-small-3d"]),
+    Code("phyz", "phyz-particle 0.1.0", SPACE + FREE_3D, {"FLIP 0.95": []}, {
+        "FLIP 1": (["--flip", "1"], ["translating-block-3d", "free-bar-pulse-small-3d",
+                                     "lame-block"]),
         "FLIP 1, no stiffness": (["--flip", "1", "--stiffness", "0"],
                                  ["translating-block-3d", "falling-block-3d"]),
     }, crate="atlas-phyz"),

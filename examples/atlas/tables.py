@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-from plan import CODES, EXACT, LAGRANGIAN, PLANE, SPACE, own_cases
+from plan import (CODES, EXACT, FREE_2D, FREE_3D, GAPS, LAGRANGIAN, PLANE, SPACE, own_cases)
 
 HERE = Path(__file__).resolve().parent
 PAGE = HERE.parent.parent / "docs" / "atlas.md"
@@ -85,6 +85,25 @@ def matrix(suites: list[str], reports: dict[str, list[dict]]) -> str:
     return table(["suite", *(title for title, _, _ in columns), *methods], rows)
 
 
+def gaps(reports: dict[str, list[dict]]) -> str:
+    """The largest error of each code at each distance between two bodies (cells)."""
+    titles = {code.name: code.title for code in CODES} | {"own": "mpm-verify"}
+    rows: dict[tuple[str, str], dict[float, str]] = {}
+    for name, runs in reports.items():
+        ends: dict[tuple[str, str], list[float]] = {}
+        for run in runs:
+            if run["suite"] in GAPS and not run["lacks"]:
+                method = run["variant"] or own_cases(run["suite"])[run["case"].split("-until-")[0]]
+                key = (f"`{run['suite']}`", f"{titles[name]}, {method}")
+                end = ends.setdefault(key, list(GAPS[run["suite"]])).pop(0)
+                distance = round(3 - end, 2)
+                rows.setdefault(key, {})[distance] = f"{float(run['errors']):.0e}"
+    distances = sorted({distance for row in rows.values() for distance in row}, reverse=True)
+    return table(["suite", "code", *map(str, distances)],
+                 [[*key, *(row.get(distance, "") for distance in distances)]
+                  for key, row in sorted(rows.items())])
+
+
 def start(case: str) -> str:
     return "half a step back: " if case.endswith("half-step-back") and "usl" in case else ""
 
@@ -94,7 +113,7 @@ def further(reports: dict[str, list[dict]]) -> str:
     rows = []
     for code in CODES:
         for run in reports.get(code.name, []):
-            if run["variant"] in code.further:
+            if run["variant"] in code.further and run["suite"] not in GAPS:
                 [first, *_] = [old for old in reports[code.name] if old["suite"] == run["suite"]]
                 rows.append([code.title, f"`{run['suite']}`", run["variant"],
                              cell(run), cell(first)])
@@ -136,6 +155,8 @@ def write(rows: list[dict[str, str]]) -> None:
         (of_gradients if row["derivative_by"] else reports).setdefault(row["code"], []).append(row)
     page = PAGE.read_text()
     for name, text in [("plane", matrix(PLANE, reports)), ("space", matrix(SPACE, reports)),
+                       ("free-2d", matrix(FREE_2D[:-1], reports)),
+                       ("free-3d", matrix(FREE_3D[:-1], reports)), ("gaps", gaps(reports)),
                        ("lagrangian", matrix(LAGRANGIAN, reports)),
                        ("exact", matrix(EXACT, reports)), ("further", further(reports)),
                        ("gradients", gradients(of_gradients))]:
