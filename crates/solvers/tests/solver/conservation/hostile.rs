@@ -75,7 +75,7 @@ fn extremes<const D: usize>() -> Vec<(&'static str, Spoil<D>)> {
 fn torn<const D: usize>(value: f64) -> Vec<(&'static str, Particles<D>)> {
     let mut bodies = vec![body::<D>(); 8];
     bodies[0].x[1][D - 1] = value;
-    bodies[1].v[1][0] = value;
+    bodies[1].v[1][D - 1] = value;
     bodies[2].mass[1] = value;
     bodies[3].vol[1] = value;
     bodies[4].sigma[1][(0, D - 1)] = value;
