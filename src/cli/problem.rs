@@ -133,27 +133,14 @@ fn readme(suite: &Suite, levels: &[ResultLevel], folder: &Path, args: &ProblemAr
             joined(&problem.times(), ", "),
         );
     }
-    text += &format!("\nRequired columns of the results: {}\n", columns(suite, levels));
+    let needs = needs_of_suite(suite).unwrap_or_default();
+    let columns = levels.first().map_or(Vec::new(), |level| level.required_columns(&needs));
+    text += &format!("\nRequired columns of the results: {}\n", joined(&columns, ", "));
     let from = folder.join("results");
     let [suite, from] = [&args.suite, &from].map(|path| path.to_string_lossy());
     let words = ["mpm-verify", "judge", &suite, "--from", &from, "--gate"].into_iter();
     let command = shlex::try_join(words.chain(args.full.then_some("--full"))).unwrap_or_default();
     text + &include_str!("results.txt").replace("COMMAND", &command)
-}
-
-/// Lists the columns that the results of a suite need.
-fn columns(suite: &Suite, levels: &[ResultLevel]) -> String {
-    let needs = needs_of_suite(suite).unwrap_or_default();
-    let axes = &["x", "y", "z"][..needs.dimension.min(3)];
-    let has_times = levels.iter().any(|level| level.problem.instants.len() > 1);
-    let mut names: Vec<String> = has_times.then(|| "t".to_owned()).into_iter().collect();
-    names.extend(axes.iter().map(|axis| axis.to_uppercase()));
-    names.extend(axes.iter().map(|axis| format!("u_{axis}")));
-    if needs.velocity {
-        names.extend(axes.iter().map(|axis| format!("v_{axis}")));
-    }
-    names.extend(needs.columns.iter().map(|quantity| format!("all components of {quantity}")));
-    joined(&names, ", ")
 }
 
 fn joined(values: &[impl Display], separator: &str) -> String {

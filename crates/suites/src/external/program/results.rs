@@ -38,6 +38,16 @@ pub struct ResultLevel {
 }
 
 impl ResultLevel {
+    /// Returns the names of the columns that a table of this level must have, with labels in place
+    /// of particle numbers.
+    pub fn required_columns(&self, needs: &ProblemNeeds) -> Vec<String> {
+        let time = (self.problem.instants.len() > 1).then_some("t");
+        let velocity = needs.velocity.then_some("velocity");
+        let quantities = time.into_iter().chain(["reference_position", "displacement"]);
+        let quantities = quantities.chain(velocity).chain(needs.columns.iter().copied());
+        quantities.flat_map(|quantity| columns(quantity, self.problem.dimension)).collect()
+    }
+
     fn rows(&self) -> usize {
         self.problem.particles.len() * self.problem.instants.len()
     }
