@@ -262,7 +262,7 @@ fn check_drift(path: &SuitePath<'_>, limits: &Limits, method: Method) -> Result<
     path.then(key).refuse_key(message, "restrict this expectation to MPM cases")
 }
 
-/// Number of points along each axis, and of time intervals, in `largest_gradient`.
+/// Number of points along each axis, and of time intervals, in `has_gradients_up_to`.
 const PLACES: usize = 5;
 
 /// Displacement gradients up to this value count as rounding errors.
@@ -319,17 +319,18 @@ fn replaceable_law(plan: &ConvergencePlan) -> LawChoice {
         return LawChoice::Stated;
     };
     let is_elastic = |body: &Scene| body.material.is_isotropic_elastic();
-    if largest_gradient(problem) <= UNDEFORMED {
+    if has_gradients_up_to(problem, UNDEFORMED) {
         LawChoice::Any
-    } else if largest_gradient(problem) <= SMALL && plan.scene.each().iter().all(is_elastic) {
+    } else if has_gradients_up_to(problem, SMALL) && plan.scene.each().iter().all(is_elastic) {
         LawChoice::SameModuli
     } else {
         LawChoice::Stated
     }
 }
 
-/// Returns the largest entry of the displacement gradient at a lattice of positions and times.
-fn largest_gradient(problem: &Problem) -> f64 {
+/// Whether no entry of the displacement gradient exceeds `limit`, at a lattice of positions and
+/// times.
+fn has_gradients_up_to(problem: &Problem, limit: f64) -> bool {
     let d = problem.dimension();
     let along = |axis: usize, k: usize| {
         let length = problem.to[axis] - problem.from[axis];
@@ -338,11 +339,10 @@ fn largest_gradient(problem: &Problem) -> f64 {
     let place = |point: usize| -> Vec<f64> {
         (0..d).map(|axis| along(axis, point / PLACES.pow(axis as u32) % PLACES)).collect()
     };
-    let entries = |(label, t): (Vec<f64>, f64)| {
-        problem.motion.derivatives(&label, t).grad.into_iter().flatten().map(f64::abs)
+    let is_small = |label: &[f64], t: f64| {
+        let gradient = problem.motion.derivatives(label, t).grad;
+        gradient.iter().flatten().all(|entry| entry.abs() <= limit)
     };
-    let times = (0..=PLACES).map(|k| problem.until * k as f64 / PLACES as f64);
-    let events = times.flat_map(|t| (0..PLACES.pow(d as u32)).map(move |point| (point, t)));
-    let gradients = events.flat_map(|(point, t)| entries((place(point), t)));
-    gradients.fold(0.0, |largest, entry| if entry <= largest { largest } else { entry })
+    let times = || (0..=PLACES).map(|k| problem.until * k as f64 / PLACES as f64);
+    (0..PLACES.pow(d as u32)).map(place).all(|label| times().all(|t| is_small(&label, t)))
 }
