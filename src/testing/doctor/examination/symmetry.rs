@@ -290,5 +290,6 @@ fn relative(one: &[f64], other: &[f64], pairs: &[usize]) -> f64 {
         off.filter(|off| off.is_finite()).unwrap_or(f64::INFINITY)
     };
     let off = (0..size * pairs.len()).map(difference).fold(0.0, f64::max);
-    if off == 0.0 { 0.0 } else { off / scale }
+    // The scale may be infinite, too.
+    if off == 0.0 || off.is_infinite() { off } else { off / scale }
 }
