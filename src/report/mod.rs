@@ -14,6 +14,8 @@ pub mod compare;
 #[cfg(feature = "cli")]
 mod csv;
 pub mod figure;
+#[cfg(test)]
+mod fixture;
 pub(crate) mod json;
 #[cfg(feature = "cli")]
 mod junit;
@@ -24,6 +26,9 @@ pub mod page;
 pub(crate) mod study;
 pub(crate) mod suite;
 pub(crate) mod text;
+
+#[cfg(test)]
+mod tests;
 
 #[cfg(feature = "cli")]
 pub use csv::csv;
