@@ -430,6 +430,11 @@ fn elements<'a>(svg: &'a str, tag: &str) -> Vec<&'a str> {
     svg.lines().filter(|line| line.starts_with(tag)).collect()
 }
 
+fn texts(svg: &str) -> Vec<&str> {
+    let inside = elements(svg, "<text").into_iter().map(|line| line.split(['>', '<']).nth(2));
+    inside.map(Option::unwrap_or_default).collect()
+}
+
 /// Returns the number that follows ` name="` in a line.
 fn attribute(line: &str, name: &str) -> f64 {
     let (_, rest) = line.split_once(&format!(" {name}=\"")).expect(name);
@@ -478,10 +483,6 @@ fn convergence_figure_has_each_level_at_its_spacing_and_error() {
     for (name, expected) in ends {
         assert!((attribute(dotted.expect("a line"), name) - expected).abs() < 0.0051, "{name}");
     }
-    let texts = |svg: &str| -> Vec<String> {
-        let inside = |line: &str| line.split(['>', '<']).nth(2).unwrap_or_default().to_owned();
-        elements(svg, "<text").into_iter().map(inside).collect()
-    };
     let expected = [
         "50 % of a bar",
         "0.2",

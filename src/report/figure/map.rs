@@ -208,14 +208,66 @@ mod tests {
         );
     }
 
+    /// Fields are 62 px wide and 17 px high, and other first words are 5 px apart. The value 2.75 is
+    /// halfway between 0.5 and 5, and the middle of the colours is halfway between two shades.
     #[test]
-    fn the_ends_of_the_range_have_the_ends_of_the_colours() {
-        let svg = map(&[Some(0.5), Some(2.0)]);
-        for (share, fill, ink) in [(0.0, "#002051", "#fff"), (1.0, "#fdea45", "#000")] {
-            assert_eq!(colour(share), (fill.to_owned(), ink));
-            assert!(svg.contains(&format!("fill=\"{fill}\"")), "{svg}");
+    fn each_value_is_in_the_field_of_its_row_and_column() {
+        let field = |value: f64| MapField { value: Some(value), text: format!("<{value}") };
+        let map = Map {
+            title: "Limits".to_owned(),
+            x_label: "place".to_owned(),
+            z_label: "C".to_owned(),
+            columns: ["0.1", "0.2", "0.3"].map(str::to_owned).into(),
+            rows: vec![
+                ("a-x".to_owned(), [0.5, 2.75, 5.0].map(field).into()),
+                ("b-y".to_owned(), [1.4, f64::INFINITY, 4.1].map(field).into()),
+            ],
+        };
+        let svg = map.to_svg();
+        let left = 14.0 + (0.63 + 0.4 + 0.63) * 12.0 + 10.0;
+        for (row, column, fill, ink) in [
+            (0.0, 0.0, "#002051", "#fff"),
+            (0.0, 1.0, "#807f78", "#000"),
+            (0.0, 2.0, "#fdea45", "#000"),
+            (1.0, 0.0, "#3c4d6e", "#fff"),
+            (1.0, 1.0, "#ffffff", "#4d4d4d"),
+            (1.0, 2.0, "#caba6a", "#000"),
+        ] {
+            let (x, y) = (left + 62.0 * column, 75.0 + 22.0 * row);
+            let value = map.rows[row as usize].1[column as usize].value.expect("a value");
+            let expected = format!(
+                "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"62.00\" height=\"17.00\" \
+                 fill=\"{fill}\" stroke=\"#ffffff\"/>\n<text x=\"{:.2}\" y=\"{:.2}\" \
+                 text-anchor=\"middle\" fill=\"{ink}\">&lt;{value}</text>",
+                x + 31.0,
+                y + 12.5
+            );
+            assert!(svg.contains(&expected), "{expected}\n{svg}");
         }
-        assert!(svg.contains("a &amp; b"));
+        for (text, x, y, anchor) in [
+            ("a-x", left - 8.0, 87.5, "end"),
+            ("b-y", left - 8.0, 109.5, "end"),
+            ("0.3", left + 155.0, 63.0, "middle"),
+            ("place", left + 93.0, 47.0, "middle"),
+            ("C: dark is low, light is high", 14.0, 132.0, "start"),
+        ] {
+            let text = format!("<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\">{text}</");
+            assert!(svg.contains(&text), "{text}\n{svg}");
+        }
+        let latex = map.to_pgfplots();
+        let data: Vec<&str> =
+            latex.lines().filter(|line| line.starts_with(['0', '1', '2'])).collect();
+        let expected = ["0 0 5e-1", "1 0 2.75e0", "2 0 5e0", "0 1 1.4e0", "1 1 nan", "2 1 4.1e0"];
+        assert_eq!(data, expected);
+        for words in [
+            "title={Limits}, xlabel={place}, ylabel={}, width=6.8cm, height=3.2cm,",
+            "colorbar style={ylabel={C}}, xtick={0,...,2}, xticklabels={{0.1}, {0.2}, {0.3}}, \
+             ytick={0,...,1}, yticklabels={{a-x}, {b-y}}, xmin=-0.5, xmax=2.5, ymin=-0.5, ymax=1.5]",
+            "mesh/cols=3, ",
+            "at (axis cs:2,1) {$<$4.1};",
+        ] {
+            assert!(latex.contains(words), "{words}\n{latex}");
+        }
     }
 
     #[test]

@@ -130,20 +130,3 @@ fn a_problem_has_a_vertex_for_each_particle() {
     assert_eq!(f.len(), 9 * n);
     assert!(f[0] > 0.5 && f[4] > 0.5 && f[2] == 0.0 && f[8] == 0.0, "{:?}", &f[..9]);
 }
-
-/// Particle files contain p and q of a plane, if the suite judges one of them.
-#[test]
-fn particle_files_contain_mean_and_deviatoric_stress() {
-    let oedometer =
-        include_str!("../../../verification/soils/oedometer-mohr-coulomb-mean-stress.yaml");
-    let folder = Folder::with("soil.yaml", oedometer);
-    folder.call(&["run", "soil.yaml", "--case", "usl", "--vtu", "vtu"]).ended(SOUND);
-    let (files, _) = last(&series(&folder)[0]);
-    let [p, q] = ["p", "q"].map(|name| numbers(&files[0], name)[0]);
-    let sigma = numbers(&files[0], "sigma");
-    // The lateral stresses are equal, and the soil is on an edge of the pyramid.
-    let (lateral, axial) = (sigma[0], sigma[4]);
-    assert_abs_diff_eq!(p, -(axial + 2.0 * lateral) / 3.0, epsilon = 1e-9);
-    assert_abs_diff_eq!(q, (lateral - axial).abs(), epsilon = 1e-9);
-    assert!(p > 100.0 && q > 100.0, "p = {p} Pa, q = {q} Pa");
-}

@@ -6,26 +6,14 @@ use rstest::rstest;
 use xml::{well_formed, without_bad_numbers};
 
 mod samples;
-mod work;
 mod xml;
-
-#[rstest]
-#[case(samples::three_series().to_svg())]
-#[case(samples::eight_long_names().to_svg())]
-#[case(samples::less_than_a_decade().to_svg())]
-#[case(samples::ten_decades().to_svg())]
-fn samples_are_well_formed(#[case] svg: String) {
-    assert_eq!(well_formed(&svg), Ok(()));
-    assert!(without_bad_numbers(&svg));
-    assert!(svg.contains("role=\"img\"") && svg.contains("<title>"));
-}
 
 /// Plain colours are attributes, which every viewer supports. The style sheet must replace each of
 /// them.
 #[rstest]
 #[case(samples::three_series().to_svg())]
 #[case(samples::eight_long_names().to_svg())]
-#[case(work::diagram().to_svg())]
+#[case(samples::work().to_svg())]
 fn every_colour_has_a_dark_counterpart(#[case] svg: String) {
     let (before, rest) = svg.split_once("<style>").expect("a style sheet");
     let (sheet, after) = rest.split_once("</style>").expect("its end");
@@ -44,11 +32,6 @@ fn every_colour_has_a_dark_counterpart(#[case] svg: String) {
 }
 
 #[test]
-fn the_same_figure_has_the_same_bytes() {
-    assert_eq!(samples::three_series().to_svg(), samples::three_series().to_svg());
-}
-
-#[test]
 fn texts_are_escaped() {
     let mut figure = samples::three_series();
     figure.title = "a < b & \"c\"".to_owned();
@@ -58,49 +41,17 @@ fn texts_are_escaped() {
     assert!(svg.contains("a &lt; b &amp; &quot;c&quot;"));
 }
 
-const KEYS: [(Mark, &str); 4] = [
-    (Mark::Window, "in the asymptotic window"),
-    (Mark::OutsideWindow, "outside the window"),
-    (Mark::Crossing, "particles changed cell"),
-    (Mark::Failed, "failed or not finite"),
-];
-
-#[rstest]
-#[case(&[Mark::Window])]
-#[case(&[Mark::OutsideWindow, Mark::Crossing])]
-#[case(&[Mark::Failed])]
-#[case(&[Mark::Window, Mark::OutsideWindow, Mark::Crossing, Mark::Failed])]
-fn the_legend_explains_the_marks_which_occur(#[case] marks: &[Mark]) {
-    let points = marks.iter().zip(1_u8..).map(|(&mark, i)| PlotPoint {
-        x: 0.5 / f64::from(i),
-        error: 0.1 / f64::from(i),
-        mark,
-    });
-    let one = PlotSeries { name: "one".to_owned(), look: 0, points: points.collect() };
-    let svg = samples::convergence(vec![one], &[2.0]).to_svg();
-    for (mark, key) in KEYS {
-        assert_eq!(svg.contains(key), marks.contains(&mark), "{key}");
+#[test]
+fn unnamed_methods_and_their_failures_are_explained() {
+    let svg = samples::work().to_svg();
+    for words in ["Pareto front", "3 others", "failed or not finite"] {
+        assert_eq!(svg.matches(words).count(), 1, "{words}");
     }
-}
-
-#[rstest]
-#[case(&[])]
-#[case(&[(0.1, 1e-3)])]
-#[case(&[(0.1, 1e-3), (0.2, 1e-3), (0.4, 1e-3)])]
-#[case(&[(0.1, 0.0), (f64::NAN, 1.0)])]
-#[case(&[(0.1, f64::NAN), (0.2, f64::INFINITY)])]
-#[case(&[(5e-324, f64::MAX), (f64::MAX, 5e-324)])]
-fn degenerate_series(#[case] points: &[(f64, f64)]) {
-    let points = points.iter().map(|&(x, error)| PlotPoint { x, error, mark: Mark::Window });
-    let one = PlotSeries { name: "one".to_owned(), look: 0, points: points.collect() };
-    let svg = samples::convergence(vec![one], &[2.0]).to_svg();
-    assert_eq!(well_formed(&svg), Ok(()));
-    assert!(without_bad_numbers(&svg));
 }
 
 #[test]
 fn points_without_a_position_are_noted() {
-    let mut figure = samples::less_than_a_decade();
+    let mut figure = samples::three_series();
     figure.series[0].points[0].error = 0.0;
     assert!(figure.to_svg().contains("Not drawn on logarithmic axes: 1 point"));
 }
@@ -117,8 +68,10 @@ fn failures_at_the_same_size_are_stacked() {
     assert_eq!(svg.matches("stroke-width=\"1.30\"").count(), 2);
 }
 
-fn marks() -> impl Strategy<Value = Mark> {
-    prop::sample::select(KEYS.map(|(mark, _)| mark).to_vec())
+fn any_points() -> impl Strategy<Value = Vec<PlotPoint>> {
+    let all = [Mark::Window, Mark::OutsideWindow, Mark::Crossing, Mark::Failed];
+    let any = (any_value(), any_value(), prop::sample::select(all.to_vec()));
+    prop::collection::vec(any.prop_map(|(x, error, mark)| PlotPoint { x, error, mark }), 0..8)
 }
 
 fn any_value() -> impl Strategy<Value = f64> {
@@ -130,18 +83,20 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
     #[test]
-    fn no_convergence_breaks_the_figure(
-        points in prop::collection::vec(
-            prop::collection::vec((any_value(), any_value(), marks()), 0..8), 0..9),
-        orders in prop::collection::vec(any_value(), 0..3),
+    fn no_input_breaks_the_figure(
+        points in prop::collection::vec(any_points(), 0..9),
+        others in prop::collection::vec(any_points(), 0..3),
+        front in prop::collection::vec((any_value(), any_value()), 0..4),
+        reference_orders in prop::collection::vec(any_value(), 0..3),
         text in any::<String>(),
     ) {
-        let series = points.into_iter().map(|points| PlotSeries {
-            name: text.clone(),
-            look: 0,
-            points: points.into_iter().map(|(x, error, mark)| PlotPoint { x, error, mark }).collect(),
-        });
-        let svg = samples::convergence(series.collect(), &orders).to_svg();
+        let named = |all: Vec<Vec<PlotPoint>>| -> Vec<PlotSeries> {
+            let one = |points| PlotSeries { name: text.clone(), look: 0, points };
+            all.into_iter().map(one).collect()
+        };
+        let (series, others) = (named(points), named(others));
+        let figure = LogLogPlot { series, others, front, reference_orders, ..samples::work() };
+        let svg = figure.to_svg();
         prop_assert_eq!(well_formed(&svg), Ok(()));
         prop_assert!(without_bad_numbers(&svg));
     }

@@ -64,14 +64,9 @@ pub(super) fn eight_long_names() -> LogLogPlot {
     convergence(all.collect(), &[1.0, 2.0])
 }
 
-pub(super) fn less_than_a_decade() -> LogLogPlot {
-    let one = series("total energy", 3, |_, h| (0.05 + 0.4 * h, Mark::Window));
-    let two = series("kinetic energy", 3, |_, h| (0.04 + 0.3 * h, Mark::OutsideWindow));
-    convergence(vec![one, two], &[1.0])
-}
-
-pub(super) fn ten_decades() -> LogLogPlot {
-    let one = series("spectral", 6, |_, h| (libm::pow(h, 5.0), Mark::Window));
-    let two = series("linear", 6, |_, h| (30.0 * h, Mark::Window));
-    convergence(vec![one, two], &[1.0, 5.0])
+/// Creates a work-precision diagram with a front and three unnamed methods, one of which fails.
+pub(super) fn work() -> LogLogPlot {
+    let mut others = three_series().series;
+    others[0].points[0].error = f64::NAN;
+    LogLogPlot { others, front: vec![(0.01, 0.1), (0.1, 0.02)], ..three_series() }
 }
