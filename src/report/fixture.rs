@@ -130,8 +130,13 @@ pub(super) fn convergence(case: u32) -> Convergence {
     }
 }
 
+/// Returns the measured value number `index` of a run, such as 0.401005.
+pub(super) fn figure(run: usize, index: u32) -> f64 {
+    digits(100 * index + run as u32, 0, 5)
+}
+
 fn trial(k: usize, verdict: Stability) -> Trial {
-    let of = |index| digits(5, k, index);
+    let of = |index| figure(k, index);
     Trial {
         verdict,
         why: (k == 1).then(|| "energy grows".to_owned()),

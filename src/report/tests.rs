@@ -1,10 +1,15 @@
 //! The complete output of the writers for an outcome in which no two numbers are equal.
 
-use super::fixture::{digits, interval, outcome, ranking, timed_suite};
+use super::fixture::{convergence, digits, figure, interval, outcome, ranking, timed_suite};
 use super::*;
-use crate::verify::{ChangedRun, Diagnosis, Judgement, Verdict};
+use crate::verify::{
+    Axis, CaseOutcome, ChangedRun, Convergence, Diagnosis, Judgement, StudyResults, SuiteOutcome,
+    Verdict,
+};
+use rstest::rstest;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::{Duration, UNIX_EPOCH};
 
 /// The first rows are the three levels of two cases. Columns whose numbers consist of the digits of
@@ -86,10 +91,10 @@ fn csv_has_each_value_in_its_row_and_column() {
     }
     let figures = "energy energy_kept kinetic_kept momentum angular_momentum least_j speed null_share \
                    largest_null_share stress_spread checkerboard stress displacement";
-    for (index, figure) in (1..).zip(figures.split(' ')) {
-        let column = format!("stability.run.figures.{figure}");
+    for (index, name) in (1..).zip(figures.split(' ')) {
+        let column = format!("stability.run.figures.{name}");
         let found = [10, 11].map(|row| rows[row][&column].clone());
-        assert_eq!(found, [0, 1].map(|k| digits(5, k, index).to_string()), "{figure}");
+        assert_eq!(found, [0, 1].map(|k| figure(k, index).to_string()), "{name}");
     }
 }
 
@@ -525,6 +530,95 @@ fn convergence_figure_has_each_level_at_its_spacing_and_error() {
     assert_eq!(figures[0].pgfplots.split_once('\n').map(|(_, text)| text), Some(PGFPLOTS));
 }
 
+/// Creates copies of the converging case. `change` gets the number of the copy.
+fn copies(count: usize, change: impl Fn(usize, &mut Convergence)) -> SuiteOutcome {
+    let mut copies = outcome();
+    copies.cases.truncate(1);
+    let case = copies.cases.remove(0);
+    copies.cases.extend((0..count).map(|k| {
+        let mut study = convergence(1);
+        change(k, &mut study);
+        let study = Some(StudyResults::Convergence(Arc::new(study)));
+        CaseOutcome { case: format!("case-{k}"), study, ..case.clone() }
+    }));
+    copies
+}
+
+#[rstest]
+#[case(
+    Axis::Time,
+    "$\\Delta t$ (s) & error & order",
+    "$1.101 \\times 10^{-3}$ & ",
+    "    dt = 1.001e-03, 1.101e-03, 1.201e-03 s\n    5 ... 20 cells along X\n    h = 0.4 ... 0.1 m\n    4",
+    "time step dt (s)",
+    json!(["time", 1.75])
+)]
+#[case(
+    Axis::Particles,
+    "particles per cell & error & order",
+    "$5$ & ",
+    "    4, 5, 6 particles per cell\n    5 ... 20 cells along X\n    h = 0.4 ... 0.1 m\n    dt = 0.001001",
+    "particle spacing h/ppc^(1/D) (m)",
+    json!(["particles", null])
+)]
+fn refined_axis_names_the_levels(
+    #[case] axis: Axis,
+    #[case] heads: &str,
+    #[case] row: &str,
+    #[case] levels: &str,
+    #[case] label: &str,
+    #[case] keys: Value,
+) {
+    let outcome = copies(1, |_, study| study.settings.axis = axis);
+    let (latex, report) = (latex(std::slice::from_ref(&outcome)), text(&outcome));
+    assert!(latex.contains(&format!("    {heads} \\\\\n")), "{latex}");
+    assert!(latex.contains(&format!("    {row}$2.000 \\times 10^{{-2}}$ & $1.11$")), "{latex}");
+    assert!(report.contains(&format!("  levels\n{levels}")), "{report}");
+    assert!(texts(&svg(&outcome)[0].svg).contains(&label));
+    let case = suite::json::case(&outcome.cases[0]);
+    assert_eq!(json!([case["axis"], case["formal_order"]]), keys);
+}
+
+/// A plot has at most six curves. Seven curves have the largest error 0.06 times 7.
+#[test]
+fn curves_of_many_cases_are_drawn_in_plots_with_the_same_axes() {
+    let scale = |k: usize, study: &mut Convergence| {
+        study.judgement.levels.iter_mut().for_each(|level| level.error *= 1.0 + k as f64);
+    };
+    let figures = svg(&copies(7, scale));
+    let [first, second] = [0, 1].map(|k| texts(&figures[k].svg));
+    assert_eq!([&figures[0].file, &figures[1].file], ["odd-1.svg", "odd-2.svg"]);
+    let position = |texts: &[&str]| texts.iter().position(|text| text.starts_with("case-"));
+    let (a, b) = (position(&first).expect("a name"), position(&second).expect("a name"));
+    assert_eq!((&first[..a], first[a + 3]), (&second[..b], "case-3: order 2.00"));
+    assert_eq!(second[b], "case-4: order 2.00");
+    // Curves with equal points share a line, and a name.
+    let equal = texts(&svg(&copies(2, |_, _| ()))[0].svg).join("|");
+    assert!(equal.contains("|case-{0,1}: order 2.00|"), "{equal}");
+}
+
+#[test]
+fn maps_have_the_limits_and_the_measured_values() {
+    let figures = svg(&outcome());
+    let files: Vec<&str> = figures.iter().map(|figure| figure.file.as_str()).collect();
+    let expected = ["odd.svg", "odd.svg", "odd-momentum.svg", "odd-least_j.svg"];
+    assert_eq!(files, [&expected[..], &["odd-work-transfers.svg"]].concat());
+    let title = "50 % of a bar";
+    for (k, words) in [
+        "parameter place|0.25|0.375|limit|0.731|&gt; 4|limit of C",
+        "parameter load|0.25|0.375|sweep|0.400|0.401|momentum drift",
+        "parameter load|0.25|0.375|sweep|0.600|0.601|min J",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let (rest, quantity) = words.rsplit_once('|').expect("a quantity");
+        let title = if k == 0 { title.to_owned() } else { format!("{title}: {quantity}") };
+        let expected = format!("{title}|{rest}|{quantity}: dark is low, light is high");
+        assert_eq!(texts(&figures[k + 1].svg).join("|"), expected);
+    }
+}
+
 const TEXT: &str = r"odd: 50 % of a bar
 
   result        4 pass, 2 known limits, 1 not applicable, 1 FAIL
@@ -658,8 +752,8 @@ First.
 
                                           momentum
   case    load  verdict         steps        drift        min J
-  sweep   0.25  stable            500    5.004e-03    5.006e-03
-  sweep  0.375  unstable          501    5.104e-03    5.106e-03
+  sweep   0.25  stable            500    4.000e-01    6.000e-01
+  sweep  0.375  unstable          501    4.010e-01    6.010e-01
 
   derivative
   cells           dt     gradient        exact        error  order

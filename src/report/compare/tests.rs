@@ -102,6 +102,23 @@ fn smaller_error_of_a_lower_order_is_not_better() {
     assert_eq!(rank(&found), Some(Rank::Otherwise), "{}", text(&found));
 }
 
+/// The finest level has the old error 2e-4 and the old work 6400.
+#[rstest]
+#[case("space", "80 cells")]
+#[case("time", "dt = 1.250e-2 s")]
+#[case("particles", "4 particles per cell")]
+fn changes_have_the_old_value_the_new_one_and_their_ratio(#[case] axis: &str, #[case] level: &str) {
+    let found = after(&case("a", 1.28, 1.0), |case| {
+        set("/levels/3/judged", json!(5e-4))(case);
+        set("/levels/3/transfers", json!(9600))(case);
+        set("/observed_order", json!({"value": 1.75}))(case);
+        set("/axis", json!(axis))(case);
+    });
+    let page = text(&found).split_whitespace().collect::<Vec<_>>().join(" ");
+    let row = format!("bar::a converging 2.00 -> 1.75 2.000e-4 -> 5.000e-4 2.50 x {level} ");
+    assert!(page.contains(&row) && page.contains(" 1.50 x Values count"), "{page}");
+}
+
 #[rstest]
 #[case::nothing("/axis", json!("space"), None)]
 #[case::another_reason("/passed", json!(true), None)]

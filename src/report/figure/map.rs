@@ -208,8 +208,8 @@ mod tests {
         );
     }
 
-    /// Fields are 62 px wide and 17 px high, and other first words are 5 px apart. The value 2.75 is
-    /// halfway between 0.5 and 5, and the middle of the colours is halfway between two shades.
+    /// Fields are 62 px wide and 17 px high, and rows with other first words are 5 px apart. Values
+    /// at a fifth of the range have one of the six shades, and that in the middle a mixture.
     #[test]
     fn each_value_is_in_the_field_of_its_row_and_column() {
         let field = |value: f64| MapField { value: Some(value), text: format!("<{value}") };

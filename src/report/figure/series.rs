@@ -274,4 +274,28 @@ mod tests {
         let sorted: Vec<f64> = levels(&points).iter().map(|l| l.x).collect();
         assert_eq!(sorted, [0.1, 0.2, 0.4]);
     }
+
+    /// Levels that count for no case may differ by 10 %, and others by 2 %.
+    #[rstest]
+    #[case(Mark::Window, 1.0, 0.981, true)]
+    #[case(Mark::Window, 1.0, 0.980, false)]
+    #[case(Mark::Window, 0.981, 1.0, true)]
+    #[case(Mark::Window, 0.980, 1.0, false)]
+    #[case(Mark::Crossing, 1.0, 0.91, true)]
+    #[case(Mark::Crossing, 1.0, 0.90, false)]
+    #[case(Mark::Failed, 1.0, f64::NAN, true)]
+    #[case(Mark::Failed, 0.90, f64::NAN, false)]
+    fn near_curves_coincide(
+        #[case] mark: Mark,
+        #[case] x: f64,
+        #[case] error: f64,
+        #[case] expected: bool,
+    ) {
+        let series = |scale: (f64, f64)| {
+            let points = vec![PlotPoint { x: 1e-6 * scale.0, error: 1e6 * scale.1, mark }];
+            PlotSeries { name: String::new(), look: 0, points }
+        };
+        let groups = coincident([(0, series((1.0, 1.0))), (1, series((x, error)))].into_iter());
+        assert_eq!(groups.len() == 1, expected);
+    }
 }

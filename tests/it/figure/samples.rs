@@ -64,7 +64,7 @@ pub(super) fn eight_long_names() -> LogLogPlot {
     convergence(all.collect(), &[1.0, 2.0])
 }
 
-/// Creates a work-precision diagram with a front and three unnamed methods, one of which fails.
+/// Creates a work-precision diagram with a front and three unnamed methods. One of them fails.
 pub(super) fn work() -> LogLogPlot {
     let mut others = three_series().series;
     others[0].points[0].error = f64::NAN;
