@@ -1,14 +1,14 @@
 //! Outcome of a suite in which no two numbers are equal, for tests of the writers.
 
-use crate::subject::{ColumnSize, Holder, Profile, RunCounters};
+use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{
-    Axis, CaseOutcome, ConservationError, Conserved, Convergence, Critical, ErrorScale, Floor,
-    ForceRow, GradientLevel, GradientStudy, History, InternalForce, Interval, JudgedBox, Judgement,
-    Level, LevelOutcome, LimitEstimate, Machine, MethodCost, NormName, Norms, Perturbed,
-    Prediction, Probe, Quantity, Ranking, RunErrors, RunFigure, RunResult, Sample, SpectrumRow,
-    SpectrumStudy, Stability, StabilityLimit, StabilityRow, StabilityStudy, StepKind, StudyResults,
-    StudySettings, SuiteOutcome, Sweep, SweepPoint, Taylor, TimedSuite, Timing, Trial, Unmet,
-    UnmetCode, ValueCheck, Verdict, WaveFigures, Workload,
+    Axis, CaseOutcome, Conserved, Convergence, Critical, ErrorScale, Floor, ForceRow,
+    GradientLevel, GradientStudy, InternalForce, Interval, JudgedBox, Judgement, Level,
+    LevelOutcome, LimitEstimate, Machine, MethodCost, NormName, Perturbed, Prediction, Probe,
+    Quantity, Ranking, RunFigure, Sample, SpectrumRow, SpectrumStudy, Stability, StabilityLimit,
+    StabilityRow, StabilityStudy, StepKind, StudyResults, StudySettings, SuiteOutcome, Sweep,
+    SweepPoint, Taylor, TimedSuite, Timing, Trial, Unmet, UnmetCode, ValueCheck, Verdict,
+    WaveFigures, Workload,
 };
 use serde_json::json;
 use std::sync::Arc;
@@ -25,23 +25,32 @@ pub(super) fn interval(value: f64, low: f64, high: f64) -> Interval {
     Interval { value, low, high }
 }
 
-fn norms(case: u32, level: usize, first: u32) -> Norms {
-    let of = |k| digits(case, level, first + k);
-    Norms { rms: of(0), l1: of(1), l2: of(2), linf: of(3), mass_l2: Some(of(4)) }
-}
-
 /// Creates a level of `case`. The coarsest level does not count, and a level without error failed.
 fn level(case: u32, k: usize) -> LevelOutcome {
     let (error, size) = (ERRORS[case as usize - 1][k], libm::exp2(-(k as f64)));
     let of = |index| digits(case, k, index);
     let count = |index: u64| 1000 * u64::from(case) + 100 * k as u64 + index;
-    let errors =
-        |first| RunErrors { at_end: norms(case, k, first), largest: norms(case, k, first + 5) };
+    let norms = |first| {
+        json!({"rms": of(first), "l1": of(first + 1), "l2": of(first + 2), "linf": of(first + 3),
+            "mass_l2": of(first + 4)})
+    };
+    let errors = |first| json!({"at_end": norms(first), "largest": norms(first + 5)});
     // The largest drift is that of the second level.
     let power = [1e5, 1e3, 1e4][k] * if case == 1 { 1.0 } else { 10.0 };
-    let drift = json!([1, 2, 3, 4, 5, 6].map(|sum: u32| f64::from(sum) / power));
-    let drift: ConservationError = serde_json::from_value(drift).expect("six numbers");
+    let drift = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(|sum| sum / power);
     let velocity = f64::from(3 * case + k as u32) - 4.0;
+    let run = json!({
+        "errors": errors(11), "displacement_errors": errors(21),
+        "drift": drift,
+        "energy_rate": {"value": of(41), "low": of(42), "high": of(43)},
+        "counters": {"particles": count(51), "transfers": 1000 * count(52),
+            "crossings": if k == 0 { count(53) } else { 0 }, "left_domain": count(54),
+            "min_j": f64::from(count(55) as u32) / 1e3},
+        "steps": count(56), "failure": error.is_nan().then_some("broken at 7 s"),
+        "history": {"label": [0.25], "velocity": [[0.0, 3.0, 2.0], [1.0, velocity, -4.0]]},
+        "displacement": [of(58)], "observed_error": of(59), "observed_exact": [of(60)],
+        "residual_speed": f64::from(4 + k as u32) / power,
+    });
     // The time steps of the second case are too long.
     let stable = f64::from(count(4) as u32 * [3, 1][case as usize - 1]) / 2e6;
     LevelOutcome {
@@ -50,29 +59,7 @@ fn level(case: u32, k: usize) -> LevelOutcome {
         spacing: 0.8 * size,
         dt: of(1),
         ppc: (case == 1).then_some(4 + k as u64),
-        run: RunResult {
-            errors: errors(11),
-            displacement_errors: Some(errors(21)),
-            drift: Some(drift),
-            energy_rate: Some(interval(of(41), of(42), of(43))),
-            counters: RunCounters {
-                particles: Some(count(51)),
-                transfers: 1000 * count(52),
-                crossings: Some(if k == 0 { count(53) } else { 0 }),
-                left_domain: Some(count(54)),
-                min_j: f64::from(count(55) as u32) / 1e3,
-            },
-            steps: count(56),
-            failure: error.is_nan().then(|| "broken at 7 s".to_owned()),
-            history: Some(History {
-                label: vec![0.25],
-                velocity: vec![[0.0, 3.0, 2.0], [1.0, velocity, -4.0]],
-            }),
-            displacement: Some(vec![of(58)]),
-            observed_error: Some(of(59)),
-            observed_exact: Some(vec![of(60)]),
-            residual_speed: Some(f64::from(4 + k as u32) / power),
-        },
+        run: serde_json::from_value(run).expect("a result"),
         error,
         usable: k > 0,
         rounding_bound: Some(of(2)),
@@ -130,31 +117,35 @@ pub(super) fn convergence(case: u32) -> Convergence {
     }
 }
 
-/// Returns the measured value number `index` of a run, such as 0.401005.
-pub(super) fn figure(run: usize, index: u32) -> f64 {
-    digits(100 * index + run as u32, 0, 5)
+/// Names of the measured values of a run.
+pub(super) const FIGURES: [&str; 13] = [
+    "energy",
+    "energy_kept",
+    "kinetic_kept",
+    "momentum",
+    "angular_momentum",
+    "least_j",
+    "speed",
+    "null_share",
+    "largest_null_share",
+    "stress_spread",
+    "checkerboard",
+    "stress",
+    "displacement",
+];
+
+/// Returns the measured value number `index` of a run, such as 0.401005 for index 3.
+pub(super) fn figure(run: usize, index: usize) -> f64 {
+    digits((100 * (index + 1) + run) as u32, 0, 5)
 }
 
 fn trial(k: usize, verdict: Stability) -> Trial {
-    let of = |index| figure(k, index);
-    Trial {
-        verdict,
-        why: (k == 1).then(|| "energy grows".to_owned()),
-        steps: 500 + k as u64,
-        energy: of(1),
-        energy_kept: of(2),
-        kinetic_kept: of(3),
-        momentum: of(4),
-        angular_momentum: of(5),
-        least_j: of(6),
-        speed: of(7),
-        null_share: of(8),
-        largest_null_share: of(9),
-        stress_spread: of(10),
-        checkerboard: of(11),
-        stress: of(12),
-        displacement: of(13),
+    let why = (k == 1).then_some("energy grows");
+    let mut trial = json!({"verdict": verdict, "why": why, "steps": 500 + k});
+    for (index, name) in FIGURES.iter().enumerate() {
+        trial[name] = json!(figure(k, index));
     }
+    serde_json::from_value(trial).expect("a trial")
 }
 
 /// Creates a study that searches for limits, or that measures runs.

@@ -1,6 +1,8 @@
 //! The complete output of the writers for an outcome in which no two numbers are equal.
 
-use super::fixture::{convergence, digits, figure, interval, outcome, ranking, timed_suite};
+use super::fixture::{
+    FIGURES, convergence, digits, figure, interval, outcome, ranking, timed_suite,
+};
 use super::*;
 use crate::verify::{
     Axis, CaseOutcome, ChangedRun, Convergence, Diagnosis, Judgement, StudyResults, SuiteOutcome,
@@ -89,12 +91,9 @@ fn csv_has_each_value_in_its_row_and_column() {
             assert_eq!(rows[row][column], value, "{column} of row {row}");
         }
     }
-    let figures = "energy energy_kept kinetic_kept momentum angular_momentum least_j speed null_share \
-                   largest_null_share stress_spread checkerboard stress displacement";
-    for (index, name) in (1..).zip(figures.split(' ')) {
-        let column = format!("stability.run.figures.{name}");
-        let found = [10, 11].map(|row| rows[row][&column].clone());
-        assert_eq!(found, [0, 1].map(|k| figure(k, index).to_string()), "{name}");
+    for (index, name) in FIGURES.iter().enumerate() {
+        let found = [10, 11].map(|row| &rows[row][&format!("stability.run.figures.{name}")]);
+        assert!(found.into_iter().eq(&[0, 1].map(|k| figure(k, index).to_string())), "{name}");
     }
 }
 

@@ -102,6 +102,12 @@ fn smaller_error_of_a_lower_order_is_not_better() {
     assert_eq!(rank(&found), Some(Rank::Otherwise), "{}", text(&found));
 }
 
+#[test]
+fn levels_of_one_run_only_are_counted() {
+    let found = after(&case("a", 1.0, 1.0), set("/levels/3/cells", json!(90)));
+    assert!(text(&found).contains("    bar::a: levels: 4 -> 4, 3 in common\n"), "{}", text(&found));
+}
+
 /// The finest level has the old error 2e-4 and the old work 6400.
 #[rstest]
 #[case("space", "80 cells")]

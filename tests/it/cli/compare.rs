@@ -3,65 +3,12 @@
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, assert_contains};
 use rstest::rstest;
 
-/// Creates a folder with the JSON of two runs: of a bar, and of the same bar with twice the
-/// particles and one method less.
-fn two_runs() -> Folder {
-    runs_of(
-        &BAR.replace("ppc: 4", "ppc: 8").replace("  - fem: {element: linear, mass: lumped}\n", ""),
-    )
-}
-
-/// Creates a folder with the JSON of the bar, and of the suite `other` in its place.
-fn runs_of(other: &str) -> Folder {
-    let folder = Folder::new();
-    for (name, text) in [("old", BAR), ("new", other)] {
-        folder.write("bar.yaml", text);
-        let found = folder.call(&["run", "bar.yaml", "--format", "json"]).ended(SOUND);
-        folder.write(&format!("{name}.json"), found.out);
-    }
-    folder
-}
-
-#[test]
-fn doubled_particles_are_reported_as_other_levels_and_more_work_for_a_target() {
-    let folder = two_runs();
-    let found = folder.call(&["compare", "old.json", "new.json"]);
-    assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
-    // No level is in both runs, so only the work for the target errors can be compared.
-    insta::assert_snapshot!(found.out, @"
-    worse: 1 judged or refined differently, 1 gone, 2 targets more expensive to reach
-
-    judged or refined differently
-      case                             verdict         order
-      short-bar::mpm-linear-flip-musl  converging       2.01
-        short-bar::mpm-linear-flip-musl: levels: 4 -> 4, 0 in common
-
-    gone
-      case                          verdict         order
-      short-bar::fem-linear-lumped  converging       2.02
-
-    cheapest for an error
-      suite                                                                error    times
-      short-bar, until t = 0.05 s, compared with the exact solution         1e-3        -
-      short-bar, until t = 0.05 s, compared with the exact solution         1e-2  14.92 x
-
-      suite                                                                            work
-      short-bar, until t = 0.05 s, compared with the exact solution  4.803e3 -> not reached
-      short-bar, until t = 0.05 s, compared with the exact solution      1.616e3 -> 2.410e4
-
-      suite                                                          cheapest
-      short-bar, until t = 0.05 s, compared with the exact solution  fem-linear-lumped -> not reached
-      short-bar, until t = 0.05 s, compared with the exact solution  fem-linear-lumped -> mpm-linear-flip-musl
-
-    Values count as equal within a relative difference of 0.001.
-    ");
-}
-
 /// Creates runs of the bar in which the new error is twice the old one, as from a worse solver.
 fn a_worse_run() -> Folder {
-    let folder = runs_of(BAR);
-    let text = folder.read("new.json");
-    let mut document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let folder = Folder::with("bar.yaml", BAR);
+    let old = folder.accepted(&["run", "bar.yaml", "--format", "json"]);
+    let mut document: serde_json::Value = serde_json::from_str(&old).expect("JSON");
+    folder.write("old.json", old);
     let error = &mut document["suites"][0]["cases"][0]["levels"][3]["judged"];
     *error = serde_json::json!(2.0 * error.as_f64().expect("an error"));
     folder.write("new.json", document.to_string());
@@ -156,13 +103,12 @@ fn both_bad_files_are_named() {
 
 #[test]
 fn tolerance_must_be_a_fraction() {
-    let folder = two_runs();
+    let folder = a_worse_run();
     for bad in ["-1", "nan", "inf", "much"] {
         let errors =
             folder.refused(&["compare", "old.json", "new.json", &format!("--tolerance={bad}")]);
         assert_contains(&errors, &["--tolerance"]);
     }
-    let folder = a_worse_run();
     assert_eq!(folder.call(&["compare", "old.json", "new.json"]).code, FAILED);
     folder.call(&["compare", "old.json", "new.json", "--tolerance", "10"]).ended(SOUND);
 }

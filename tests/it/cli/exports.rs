@@ -34,15 +34,19 @@ fn files_that_cannot_be_written_are_named_before_the_run() {
 #[test]
 fn a_folder_of_results_has_tables_and_sources_of_figures() {
     let folder = Folder::with("bar.yaml", BAR);
-    folder.call(&["run", "bar.yaml", "--out", "out"]).ended(SOUND);
+    let printed = folder.accepted(&["run", "bar.yaml", "--out", "new/out"]);
+    let read = |file: &str| folder.read(&format!("new/out/{file}"));
+    assert!(printed.contains(&read("short-bar.txt")), "{printed}");
     for figure in ["short-bar", "short-bar-work-transfers"] {
-        let tex = folder.read(&format!("out/{figure}.tex"));
+        let tex = read(&format!("{figure}.tex"));
         assert!(tex.ends_with("\\end{tikzpicture}\n\\end{document}\n"), "{tex}");
-        assert!(folder.read(&format!("out/{figure}.svg")).starts_with("<svg "));
+        assert!(read(&format!("{figure}.svg")).starts_with("<svg "));
     }
-    let csv = folder.accepted(&["run", "bar.yaml", "--format", "csv"]);
-    assert!(csv.starts_with("suite,case,") && folder.read("out/report.csv") == csv);
-    assert!(folder.read("out/short-bar-table.tex").contains("\\begin{tabular}"));
+    for (format, start) in [("csv", "suite,case,"), ("json", "{")] {
+        let printed = folder.accepted(&["run", "bar.yaml", "--format", format]);
+        assert!(printed.starts_with(start) && read(&format!("report.{format}")) == printed);
+    }
+    assert!(read("short-bar-table.tex").contains("\\begin{tabular}"));
 }
 
 #[test]

@@ -117,22 +117,6 @@ fn failed_case_does_not_affect_other_cases() {
 }
 
 #[test]
-fn out_writes_the_report_the_figures_and_the_json() {
-    let folder = Folder::with("bar.yaml", BAR);
-    let out = folder.accepted(&["run", "bar.yaml", "grid-crossing", "--out", "new/results"]);
-    let files = folder.files("new/results");
-    for file in ["report.json", "short-bar.txt", "short-bar.svg", "grid-crossing.txt"] {
-        assert!(files.iter().any(|found| found == file), "no {file} among {files:?}");
-    }
-    let report = folder.read("new/results/short-bar.txt");
-    assert!(out.contains(&report), "the file is what was printed");
-    let json = folder.call(&["run", "bar.yaml", "grid-crossing", "--format", "json"]);
-    assert_eq!(folder.read("new/results/report.json"), json.out);
-    let figure = folder.read("new/results/short-bar.svg");
-    assert!(figure.contains("<svg") && figure.trim_end().ends_with("</svg>"));
-}
-
-#[test]
 fn one_thread_and_two_give_the_same_bytes() {
     let folder = Folder::with("bar.yaml", BAR);
     let run = |jobs: &str| {
