@@ -41,12 +41,17 @@ fn document_contains_valid_suites_despite_an_invalid_file() {
 
 /// Every command that prints something must have the flag, and must print one document.
 #[rstest]
-#[case(&["list", "bar.yaml"], "/suites/0/cases/0/case", &json!("mpm-linear-flip-musl"))]
+#[case(&["list", "bar.yaml"], "/suites/0/cases/0/particle_steps", &json!(6000.0))]
 #[case(&["check", "bar.yaml"], "/suites/0/cases", &json!(2))]
 #[case(&["check", "bar.yaml"], "/errors", &json!(0))]
-#[case(&["explain", "bar.yaml"], "/suites/0/cases/0/levels/3/cells", &json!(12))]
+#[case(&["explain", "bar.yaml"], "/suites/0/cases/0/levels/2", &json!({
+    "cells": 8, "h": 0.125, "particles": 32.0, "dt": 1e-3, "steps": 50, "courant": 0.08
+}))]
 #[case(&["explain", "bar.yaml"], "/suites/0/cases/0/profile/particles", &json!(16))]
-#[case(&["steps", "bar.yaml"], "/suites/0/levels/0/steps", &json!(50))]
+#[case(&["steps", "bar.yaml"], "/suites/0/levels/1", &json!({
+    "case": "mpm-linear-flip-musl", "cells": 6, "steps": 50, "dt": 1e-3, "wanted": 1e-3,
+    "ratio": 1.0, "instants": 50, "off": false
+}))]
 #[case(&["propose", "bar.yaml"], "/suites/0/suite", &json!("short-bar"))]
 #[case(&["diagnose", "bar.yaml", "--case", "mpm"], "/cases/0/sound", &json!(true))]
 #[case(&["problem", "bar.yaml", "--level", "1"], "/suite", &json!("short-bar"))]

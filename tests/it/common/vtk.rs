@@ -3,7 +3,7 @@
 /// Returns the numbers of the array called `name`.
 pub(crate) fn numbers(file: &[u8], name: &str) -> Vec<f64> {
     let (xml, appended) = parts(file);
-    let head = format!("<DataArray Name=\"{name}\" type=\"Float64\" ");
+    let head = format!("<DataArray Name=\"{name}\" ");
     let line = xml.lines().find(|line| line.starts_with(&head));
     let line = line.unwrap_or_else(|| panic!("no {name} in {xml}"));
     let offset: usize = attribute(line, "offset").parse().expect("an offset");

@@ -193,18 +193,27 @@ fn file_name(run: &str) -> String {
 }
 
 #[cfg(test)]
+#[path = "../../../../tests/it/common/vtk.rs"]
+mod vtk_file;
+
+#[cfg(test)]
 mod tests {
+    use super::vtk_file::{numbers, parts};
     use super::*;
     use crate::subject::{Failure, RunCounters};
     use crate::vtk::{TensorRank, points};
 
-    /// Three labels of a plane, in bodies of two and one particles or without bodies. The label
-    /// number k has the velocity (k + 1) (1, -10) m/s, and fails in step `last`.
+    /// Three labels of a plane, in bodies of two and one particles or without bodies. The labels
+    /// have the velocities (1, -10), (2, -20) and (3, -30) m/s, and fail in step `last`.
     struct Plane {
         has_bodies: bool,
         t: f64,
         steps: u64,
         last: u64,
+    }
+
+    fn field(name: &str, components: usize, numbers: &[f64]) -> StateField {
+        StateField { name: name.to_owned(), components, numbers: numbers.to_vec() }
     }
 
     impl Subject for Plane {
@@ -230,27 +239,24 @@ mod tests {
         }
 
         fn fields(&self) -> Vec<BodyFields> {
-            let field = |name: &str, components, numbers: &[f64]| StateField {
-                name: name.to_owned(),
-                components,
-                numbers: numbers.to_vec(),
+            let mass = [21.0, 22.0, 23.0, 24.0, 25.0, self.t];
+            let body = |masses: &[f64]| BodyFields {
+                particles: masses.len(),
+                of_particles: vec![field("mass", 1, masses)],
+                ..BodyFields::default()
             };
             let first = BodyFields {
-                particles: 2,
-                of_particles: vec![field("mass", 1, &[2.0, 3.0])],
                 origin: vec![-1.5, 0.25],
                 h: 0.5,
                 counts: vec![3, 2],
-                of_nodes: vec![
-                    field("f", 2, &[1., 2., 3., 4., 5., 6., 7., 8., 9., 10., 11., 12.]),
-                    field("mass", 1, &[21.0, 22.0, 23.0, 24.0, 25.0, self.t]),
-                ],
+                of_nodes: vec![field("f", 2, &TWELVE), field("mass", 1, &mass)],
+                ..body(&[2.0, 3.0])
             };
-            let of_particles = vec![field("mass", 1, &[5.0])];
-            let second = BodyFields { particles: 1, of_particles, ..BodyFields::default() };
-            if self.has_bodies { vec![first, second] } else { Vec::new() }
+            if self.has_bodies { vec![first, body(&[5.0])] } else { Vec::new() }
         }
     }
+
+    const TWELVE: [f64; 12] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0];
 
     /// Moves with the velocity (X/4, -Y) m/s under a uniform stress that is not symmetric.
     struct Exact;
@@ -270,9 +276,10 @@ mod tests {
         }
     }
 
-    fn written(subject: Plane, level: &str, dt: &[f64], steps: u64) -> Vec<(String, Vec<u8>)> {
+    fn written(has_bodies: bool, level: &str, dt: &[f64], steps: u64) -> Vec<(String, Vec<u8>)> {
+        let subject = Box::new(Plane { has_bodies, t: 0.0, steps: 0, last: 31 });
         let (name, truth, mut files) = (level.to_owned(), Some(&Exact as &dyn Truth), Vec::new());
-        let run = ShownRun { name, subject: Box::new(subject), dt: dt.to_vec(), steps, truth };
+        let run = ShownRun { name, subject, dt: dt.to_vec(), steps, truth };
         let write = &mut |file: &SeriesFile| {
             files.push((file.path.clone(), file.bytes.clone()));
             Ok(())
@@ -281,152 +288,107 @@ mod tests {
         files
     }
 
-    /// Returns the text of a file before its numbers, and the numbers after it.
-    fn parts(file: &[u8]) -> (&str, &str) {
-        let text = std::str::from_utf8(file).expect("text");
-        text.split_once("<AppendedData encoding=\"base64\">\n_").unwrap_or((text, ""))
-    }
-
-    /// Decodes the array called `name`, which begins with the number of its bytes.
-    fn numbers(file: &[u8], name: &str) -> Vec<f64> {
-        let (xml, appended) = parts(file);
-        let (_, line) = xml.split_once(&format!("Name=\"{name}\"")).expect(name);
-        let offset = line.split("offset=\"").nth(1).and_then(|rest| rest.split('"').next());
-        let digits = appended[offset.and_then(|at| at.parse().ok()).expect("an offset")..].bytes();
-        let (mut bits, mut count, mut bytes) = (0_u32, 0, Vec::new());
-        for digit in digits.take_while(|c| *c != b'=' && *c != b'\n') {
-            let value = match digit {
-                b'A'..=b'Z' => digit - b'A',
-                b'a'..=b'z' => digit - b'a' + 26,
-                b'0'..=b'9' => digit - b'0' + 52,
-                _ => {
-                    if digit == b'+' {
-                        62
-                    } else {
-                        63
-                    }
-                }
-            };
-            (bits, count) = (bits << 6 | u32::from(value), count + 6);
-            if count >= 8 {
-                count -= 8;
-                bytes.push((bits >> count) as u8);
-            }
+    fn have(file: &[u8], expected: &[(&str, &[f64])]) {
+        for (name, expected) in expected {
+            assert_eq!(numbers(file, name), *expected, "{name}");
         }
-        let word = |at: usize| bytes[at..at + 8].try_into().expect("eight bytes");
-        let end = 8 + u64::from_le_bytes(word(0)) as usize;
-        (8..end).step_by(8).map(|at| f64::from_le_bytes(word(at))).collect()
     }
 
     /// With steps of 1/4 and 1/2 s the labels have moved for 3/4 s at the second instant.
     #[test]
     fn each_body_has_its_own_particles_grid_and_errors_at_each_instant() {
-        let plane = Plane { has_bodies: true, t: 0.0, steps: 0, last: 9 };
-        let files = written(plane, "dt = 0.25 s", &[0.25, 0.5], 2);
-        let (mut list, mut paths) = (String::new(), Vec::new());
+        let files = written(true, "dt = 0.25 s", &[0.25, 0.5], 2);
+        let version = "version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"";
+        let head = |kind: &str, attributes: &str| {
+            let root = format!("<VTKFile type=\"{kind}\" {version}>\n<{kind}{attributes}>\n");
+            format!("<?xml version=\"1.0\"?>\n{root}")
+        };
+        let (mut pvd, mut paths) = (head("Collection", ""), Vec::new());
         for (number, t) in ["0", "0.25", "0.75"].iter().enumerate() {
             let names = ["particles-#.body-1.vtu", "grid-#.body-1.vti", "particles-#.body-2.vtu"];
             for (part, name) in names.iter().enumerate() {
                 let file = format!("bar.dt-0.25-s/{}", name.replace('#', &format!("000{number}")));
-                list += &format!("<DataSet timestep=\"{t}\" part=\"{part}\" file=\"{file}\"/>\n");
+                pvd += &format!("<DataSet timestep=\"{t}\" part=\"{part}\" file=\"{file}\"/>\n");
                 paths.push(format!("suite/{file}"));
             }
         }
         paths.extend(["svg", "pvd"].map(|end| format!("suite/bar.dt-0.25-s.{end}")));
         assert!(files.iter().map(|(path, _)| path).eq(&paths), "{paths:?}");
-        let head = |kind: &str, attributes: &str| {
-            let version = "version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"";
-            let root = format!("<VTKFile type=\"{kind}\" {version}>\n<{kind}{attributes}>\n");
-            format!("<?xml version=\"1.0\"?>\n{root}")
-        };
-        let pvd = head("Collection", "") + &list + "</Collection>\n</VTKFile>\n";
-        assert_eq!(parts(&files[10].1).0, pvd);
-        let [first, grid, second] = [6, 7, 8].map(|k| files[k].1.as_slice());
-        for (file, name, expected) in [
-            (first, "position", &[1.75, -5.5, 0.0, 4.5, -10.0, 0.0][..]),
-            (first, "u", &[0.75, -7.5, 0.0, 1.5, -15.0, 0.0]),
-            (first, "mass", &[2.0, 3.0]),
-            (first, "p", &[-10.0, -20.0]),
-            (first, "error of displacement", &[0.5625, -6.0, 0.0, 0.9375, -11.25, 0.0]),
-            (first, "error of velocity", &[0.75, -8.0, 0.0, 1.25, -15.0, 0.0]),
-            (second, "position", &[10.25, -18.5, 0.0]),
-            (second, "u", &[2.25, -22.5, 0.0]),
-            (second, "mass", &[5.0]),
-            (second, "error of displacement", &[0.75, -19.5, 0.0]),
-            (second, "error of stress", &[30.0, 12.0, 0.0, -267.0, -3966.0, 0.0, 0.0, 0.0, 0.0]),
-            (grid, "mass", &[21.0, 22.0, 23.0, 24.0, 25.0, 0.75]),
-        ] {
-            assert_eq!(numbers(file, name), expected, "{name}");
-        }
-        let f = (1..=6).flat_map(|k| [f64::from(2 * k - 1), f64::from(2 * k), 0.0]);
-        assert!(numbers(grid, "f").into_iter().eq(f));
+        assert_eq!(files[10].1, (pvd + "</Collection>\n</VTKFile>\n").into_bytes());
+        let (first, grid) = (&files[6].1, &files[7].1);
+        have(first, &[("position", &[1.75, -5.5, 0.0, 4.5, -10.0, 0.0])]);
+        have(first, &[("u", &[0.75, -7.5, 0.0, 1.5, -15.0, 0.0]), ("mass", &[2.0, 3.0])]);
+        have(first, &[("p", &[-10.0, -20.0])]);
+        have(first, &[("error of displacement", &[0.5625, -6.0, 0.0, 0.9375, -11.25, 0.0])]);
+        have(first, &[("error of velocity", &[0.75, -8.0, 0.0, 1.25, -15.0, 0.0])]);
+        let stress = [30.0, 12.0, 0.0, -267.0, -3966.0, 0.0, 0.0, 0.0, 0.0];
+        let second = [
+            ("position", &[10.25, -18.5, 0.0][..]),
+            ("u", &[2.25, -22.5, 0.0]),
+            ("mass", &[5.0]),
+            ("error of displacement", &[0.75, -19.5, 0.0]),
+            ("error of stress", &stress),
+        ];
+        have(&files[8].1, &second);
+        let f: Vec<f64> = TWELVE.chunks(2).flat_map(|f| [f[0], f[1], 0.0]).collect();
+        have(grid, &[("mass", &[21.0, 22.0, 23.0, 24.0, 25.0, 0.75]), ("f", &f)]);
         let extent = "Extent=\"0 2 0 1 0 0\"";
         let place = format!(" Whole{extent} Origin=\"-1.5 0.25 0\" Spacing=\"0.5 0.5 0.5\"");
-        let array = |name: &str, count: usize, offset: usize| {
-            format!(
-                "<DataArray Name=\"{name}\" type=\"Float64\" NumberOfComponents=\"{count}\" \
-                 format=\"appended\" offset=\"{offset}\"/>\n"
-            )
-        };
         // 18 numbers and their length take 152 bytes, or 204 digits in base64.
-        let data = array("f", 3, 0) + &array("mass", 1, 204);
-        let tail = "</PointData>\n</Piece>\n</ImageData>\n";
-        let vti = format!("<Piece {extent}>\n<PointData>\n{data}{tail}");
-        assert_eq!(parts(grid).0, head("ImageData", &place) + &vti);
+        let array = |(name, components, offset): (&str, usize, usize)| {
+            let kind = format!("type=\"Float64\" NumberOfComponents=\"{components}\"");
+            format!("<DataArray Name=\"{name}\" {kind} format=\"appended\" offset=\"{offset}\"/>\n")
+        };
+        let arrays = [("f", 3, 0), ("mass", 1, 204)].map(array).concat();
+        let piece = format!("<Piece {extent}>\n<PointData>\n{arrays}</PointData>\n</Piece>\n");
+        assert_eq!(parts(grid).0, head("ImageData", &place) + &piece + "</ImageData>\n");
     }
 
     #[test]
     fn samples_of_a_failing_run_are_written_at_twenty_instants_up_to_the_failure() {
-        let plane = Plane { has_bodies: false, t: 0.0, steps: 0, last: 31 };
-        let files = written(plane, "12 cells", &[0.1], 40);
-        let times: Vec<f64> =
-            (0..=15).map(|k| 2 * k).chain([31]).map(|k| f64::from(k) * 0.1).collect();
-        let list = parts(&files[18].1).0.lines().filter(|line| line.starts_with("<DataSet"));
-        for ((number, t), line) in times.iter().enumerate().zip(list) {
+        let files = written(false, "12 cells", &[0.1], 40);
+        let times = (0..=15).map(|k| 2 * k).chain([31]).map(|k| f64::from(k) * 0.1);
+        let line = |(number, t): (usize, f64)| {
             let file = format!("bar.12-cells/particles-{number:04}.vtu");
-            assert_eq!(line, format!("<DataSet timestep=\"{t}\" part=\"0\" file=\"{file}\"/>"));
+            format!("<DataSet timestep=\"{t}\" part=\"0\" file=\"{file}\"/>\n")
+        };
+        let lines: String = times.enumerate().map(line).collect();
+        let pvd = std::str::from_utf8(&files[18].1).expect("text");
+        assert!(pvd.contains(&format!("<Collection>\n{lines}</Collection>")), "{pvd}");
+        let last = &files[16].1;
+        have(last, &[("X", &[1.0, 2.0, 0.0, 3.0, 5.0, 0.0, 8.0, 4.0, 0.0])]);
+        have(last, &[("v", &[1.0, -10.0, 0.0, 2.0, -20.0, 0.0, 3.0, -30.0, 0.0])]);
+        have(last, &[("V0", &[0.5, 1.0, 1.5]), ("sigma33", &[5.0, 15.0, 25.0])]);
+        have(last, &[("T", &[301.0, 302.0, 303.0])]);
+        for (name, expected) in [("sigma", [21.0, 22.0, 23.0, 24.0]), ("F", [7.0, 8.0, 9.0, 10.0])]
+        {
+            let [a, b, c, d] = expected;
+            let second = &numbers(last, name)[9..18];
+            assert_eq!(second, [a, b, 0.0, c, d, 0.0, 0.0, 0.0, 0.0], "{name}");
         }
-        assert_eq!((files.len(), times.len()), (19, 17));
-        for (name, expected) in [
-            ("X", &[1.0, 2.0, 0.0, 3.0, 5.0, 0.0, 8.0, 4.0, 0.0][..]),
-            ("v", &[1.0, -10.0, 0.0, 2.0, -20.0, 0.0, 3.0, -30.0, 0.0]),
-            ("V0", &[0.5, 1.0, 1.5]),
-            ("sigma33", &[5.0, 15.0, 25.0]),
-            ("T", &[301.0, 302.0, 303.0]),
-        ] {
-            assert_eq!(numbers(&files[16].1, name), expected, "{name}");
-        }
-        let tensors = |name: &str| numbers(&files[16].1, name)[9..18].to_vec();
-        assert_eq!(tensors("sigma"), [21.0, 22.0, 0.0, 23.0, 24.0, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(tensors("F"), [7.0, 8.0, 0.0, 9.0, 10.0, 0.0, 0.0, 0.0, 0.0]);
     }
 
     /// In 1-D the number of components does not determine the rank, and in 3-D nothing is added.
     #[test]
     fn ranks_determine_the_components_in_every_dimension() {
-        let field = |rank, components, numbers: &[f64]| {
-            let name = format!("{rank:?}");
-            (rank, StateField { name, components, numbers: numbers.to_vec() })
-        };
-        let nine = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
-        let space = points(3, &[1.0, 2.0, 3.0], &[field(TensorRank::Tensor, 9, &nine)]);
-        assert_eq!(numbers(&space, "position"), [1.0, 2.0, 3.0]);
-        assert_eq!(numbers(&space, "Tensor"), nine);
-        let fields = [TensorRank::Scalar, TensorRank::Vector, TensorRank::Tensor]
-            .map(|rank| field(rank, 1, &[6.0, 7.0]));
-        let line = points(1, &[4.0, 5.0], &fields);
-        assert_eq!(numbers(&line, "position"), [4.0, 0.0, 0.0, 5.0, 0.0, 0.0]);
-        assert_eq!(numbers(&line, "Scalar"), [6.0, 7.0]);
-        assert_eq!(numbers(&line, "Vector"), [6.0, 0.0, 0.0, 7.0, 0.0, 0.0]);
-        let tensors = [6.0, 7.0].map(|x| [x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(numbers(&line, "Tensor"), tensors.concat());
+        let space =
+            points(3, &[1.0, 2.0, 3.0], &[(TensorRank::Tensor, field("F", 9, &TWELVE[..9]))]);
+        have(&space, &[("position", &[1.0, 2.0, 3.0]), ("F", &TWELVE[..9])]);
+        let ranks = [TensorRank::Scalar, TensorRank::Vector, TensorRank::Tensor];
+        let line = points(
+            1,
+            &[4.0, 5.0],
+            &ranks.map(|rank| (rank, field(&format!("{rank:?}"), 1, &[6.0, 7.0]))),
+        );
+        let extended =
+            |x: [f64; 2], zeros: usize| x.map(|x| [vec![x], vec![0.0; zeros]].concat()).concat();
+        have(&line, &[("position", &extended([4.0, 5.0], 2)), ("Scalar", &[6.0, 7.0])]);
+        have(&line, &[("Vector", &extended([6.0, 7.0], 2)), ("Tensor", &extended([6.0, 7.0], 8))]);
         for (name, expected) in [("connectivity", [0, 1]), ("offsets", [1, 2])] {
             assert!(numbers(&line, name).into_iter().map(f64::to_bits).eq(expected), "{name}");
         }
-        let xml = parts(&line).0;
         assert!(
-            xml.contains("<Piece NumberOfPoints=\"2\" NumberOfCells=\"2\">\n<Points>\n"),
-            "{xml}"
+            parts(&line).0.contains("<Piece NumberOfPoints=\"2\" NumberOfCells=\"2\">\n<Points>\n")
         );
     }
 }
