@@ -169,11 +169,7 @@ mod tests {
     use rstest::rstest;
 
     #[rstest]
-    #[case("1.235e-05", "$1.235 \\times 10^{-5}$")]
     #[case("(1.000e+00)", "($1.000 \\times 10^{0}$)")]
-    #[case("16", "$16$")]
-    #[case("-", "--")]
-    #[case("failed", "failed")]
     #[case("nan", "nan")]
     fn numbers_of_cells(#[case] text: &str, #[case] cell: &str) {
         assert_eq!(number(text), cell);

@@ -268,13 +268,6 @@ mod tests {
         assert_eq!(levels.first().map(|level| (error(level), level.mark)), drawn);
     }
 
-    #[test]
-    fn levels_are_ordered_by_x() {
-        let points = [0.1, 0.4, 0.2].map(|x| PlotPoint { x, error: x, mark: Mark::Window });
-        let sorted: Vec<f64> = levels(&points).iter().map(|l| l.x).collect();
-        assert_eq!(sorted, [0.1, 0.2, 0.4]);
-    }
-
     /// Levels that count for no case may differ by 10 %, and others by 2 %.
     #[rstest]
     #[case(Mark::Window, 1.0, 0.981, true)]

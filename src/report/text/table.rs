@@ -255,27 +255,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_are_aligned_and_empty_ones_omitted() {
-        let columns = [
-            TableColumn::text("cells", "", |row: &[&'static str; 2]| row[0]),
-            TableColumn::text("ppc", "", |_: &[&'static str; 2]| None::<u64>),
-            TableColumn::text("rms", "", |row: &[&'static str; 2]| row[1]),
-        ];
-        let table = Table::new(&columns, [["5", "1.0"], ["160", "0.25"]]);
-        let lines = table.without_empty_columns().lines();
-        assert_eq!(lines, ["  cells    rms", "      5    1.0", "    160   0.25"]);
-    }
-
-    #[test]
-    fn headings_are_wrapped_to_the_width_of_their_column() {
-        let headings = ["case", "linf at end (m)"].map(str::to_owned).to_vec();
-        let table = Table::of_cells(headings, vec![vec!["a".to_owned(), "1.0".to_owned()]]);
-        let lines =
-            ["         linf", "           at", "          end", "  case    (m)", "  a       1.0"];
-        assert_eq!(table.lines(), lines);
-    }
-
-    #[test]
     fn equal_rows_are_merged() {
         let merged = |rows: Vec<[String; 2]>, by_name: bool| {
             let headings = vec!["case".to_owned(), String::new()];

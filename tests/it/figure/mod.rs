@@ -32,16 +32,6 @@ fn every_colour_has_a_dark_counterpart(#[case] svg: String) {
 }
 
 #[test]
-fn texts_are_escaped() {
-    let mut figure = samples::three_series();
-    figure.title = "a < b & \"c\"".to_owned();
-    figure.series[0].name = "</svg>".to_owned();
-    let svg = figure.to_svg();
-    assert_eq!(well_formed(&svg), Ok(()));
-    assert!(svg.contains("a &lt; b &amp; &quot;c&quot;"));
-}
-
-#[test]
 fn unnamed_methods_and_their_failures_are_explained() {
     let svg = samples::work().to_svg();
     for words in ["Pareto front", "3 others", "failed or not finite"] {

@@ -84,19 +84,3 @@ fn body(shape: MarkerShape, at: Pt, radius: f64) -> SvgElement {
         corners.iter().map(|&(x, y)| (at.0 + radius * x, at.1 + radius * y)).collect();
     SvgElement::through("polygon", &corners).set("stroke-linejoin", "round")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rstest::rstest;
-
-    #[rstest]
-    #[case(Fill::Solid, "fill=\"#123456\"", 0)]
-    #[case(Fill::Hollow, "fill=\"#ffffff\"", 0)]
-    #[case(Fill::Crossed, "fill=\"#ffffff\"", 2)]
-    fn filling(#[case] fill: Fill, #[case] inside: &str, #[case] strokes: usize) {
-        let svg = draw(MarkerShape::Square, fill, "#123456", (0.0, 0.0)).render();
-        assert!(svg.contains(inside), "{svg}");
-        assert_eq!(svg.matches("<line").count(), strokes, "{svg}");
-    }
-}

@@ -126,13 +126,6 @@ mod tests {
     }
 
     #[test]
-    fn padding_is_a_fraction_of_the_whole_axis() {
-        let scale = Scale::log([1.0, 1e7].into_iter(), Pad { lo: 0.1, hi: 0.2 });
-        assert_abs_diff_eq!(scale.fraction(1.0), 0.1, epsilon = 1e-12);
-        assert_abs_diff_eq!(scale.fraction(1e7), 0.8, epsilon = 1e-12);
-    }
-
-    #[test]
     fn exponents_are_separate_texts() {
         let svg = Label::power("10", -3).draw((0.0, 0.0), "end").render();
         let (base, exponent) = svg.split_once("</text>").unwrap();
