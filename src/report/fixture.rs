@@ -55,7 +55,7 @@ fn level(case: u32, k: usize) -> LevelOutcome {
     let stable = f64::from(count(4) as u32 * [3, 1][case as usize - 1]) / 2e6;
     LevelOutcome {
         cells: 5 << k,
-        h: 0.4 * size,
+        h: [0.4, 0.25, 0.1][k],
         spacing: 0.8 * size,
         dt: of(1),
         ppc: (case == 1).then_some(4 + k as u64),

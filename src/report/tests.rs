@@ -5,8 +5,8 @@ use super::fixture::{
 };
 use super::*;
 use crate::verify::{
-    Axis, CaseOutcome, ChangedRun, Convergence, Diagnosis, Judgement, StudyResults, SuiteOutcome,
-    Verdict,
+    Axis, CaseOutcome, ChangedRun, Convergence, Diagnosis, EstimateRefusal, Judgement,
+    StudyResults, SuiteOutcome, Verdict,
 };
 use rstest::rstest;
 use serde_json::{Value, json};
@@ -48,7 +48,7 @@ fn csv_has_each_value_in_its_row_and_column() {
         ("residual_speed", "0.00004 0.005 0.0006 0.000004 0.0005 0.00006"),
         ("stable_time_step", "0.001506 0.001656 0.001806 0.001002 0.001052 0.001102"),
         ("spacing", "0.8 0.4 0.2 0.8 0.4 0.2"),
-        ("h", "0.4 0.2 0.1 0.4 0.2 0.1"),
+        ("h", "0.4 0.25 0.1 0.4 0.25 0.1"),
         ("counts", "false true false false false false"),
         ("excluded_by", "crossings - spread crossings - -"),
         ("drift.mass", "0.00001 0.001 0.0001 0.000001 0.0001 0.00001"),
@@ -271,6 +271,10 @@ fn ranking_has_each_work_in_its_row_and_column() {
 fn timed_suite_has_each_time_in_its_row_and_column() {
     let text = timed(&timed_suite(), true);
     assert_eq!(text.split("\n== ").next(), Some(TIMED));
+    for work in ["<=1.17e-03", "<=1.15e+06"] {
+        let row = format!("  mpm-linear  {work}   1.00     1.25e-03  no trend  2 of 3\n");
+        assert!(text.contains(&row), "{text}");
+    }
     assert!(text.ends_with("\ncheapest for an error of 1e-2: mpm-linear, 1.17e-03 s\n"), "{text}");
     let document: Value = serde_json::from_str(&timed_json(&[timed_suite()])).expect("JSON");
     // The update of a particle takes 16 bytes; the layer exists for some particles only.
@@ -543,6 +547,47 @@ fn refined_axis_names_the_levels(
     assert_eq!(json!([case["axis"], case["formal_order"]]), keys);
 }
 
+/// The limits of the four cases are 0.0012 m, with an interval from 0.001 to 0.0015 m; the exact
+/// value is 0.00126 m.
+#[test]
+fn overview_counts_the_cases_of_each_kind() {
+    let estimates = copies(4, |k, study| match k {
+        0 => study.levels[2].run.observed_exact = Some(vec![0.0016]),
+        1 => study.observed_limit = Some(Err(EstimateRefusal::Unusable)),
+        _ => study.judgement.order = Some(interval(1.5 + k as f64, 1.0, 5.0)),
+    });
+    let text = overview(&[estimates.clone()]);
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("in 2 of 3 cases; 1 of 4 cases have no estimate"), "{text}");
+    assert!(glance(&[estimates]).contains("  odd    2.00..4.50  4 pass\n"));
+    let verdicts = copies(9, |k, study| study.judgement.verdict = Verdict::ALL[k]);
+    let words = "2.00/floor/unsettled/oscillates/grows/breaks/few levels";
+    assert_eq!(matrix::findings(&verdicts)[0], words);
+    assert_eq!(matrix::shares(&[&verdicts])[0], (2, 9));
+}
+
+#[test]
+fn report_describes_the_levels_with_crossings_and_failures() {
+    let crossings = [[0, 0, 7], [0, 7, 7], [0, 0, 0], [7, 7, 7]];
+    let report = text(&copies(4, |k, study| {
+        for (level, count) in study.levels.iter_mut().zip(crossings[k]) {
+            level.run.counters.crossings = Some(count);
+        }
+        let failed = if k == 2 { &mut study.levels[1..] } else { &mut study.levels[2..][..k / 3] };
+        failed.iter_mut().for_each(|level| level.run.failure = Some("broken".to_owned()));
+    }));
+    for line in [
+        "  crossings     particles change cells on the finest level only (case-0)\n",
+        "  crossings     particles change cells on the level with 10 cells and on finer levels (case-1)\n",
+        "  crossings     no particle changes its cell (case-2)\n",
+        "  crossings     particles change cells on every level (case-3)\n",
+        "  remark        case-2: 10 cells to 20 cells (2 levels): broken\n",
+        "  remark        case-3: 20 cells: broken\n",
+    ] {
+        assert!(report.contains(line), "{line}{report}");
+    }
+}
+
 /// A plot has at most six curves. Seven curves have the largest error 0.06 times 7.
 #[test]
 fn curves_of_many_cases_are_drawn_in_plots_with_the_same_axes() {
@@ -630,7 +675,7 @@ First.
     1056 ... 1256 steps
   levels (mpm-ugimp)
     5, 10, 20 cells along X
-    h = 0.4 ... 0.2 m
+    h = 0.4 ... 0.25 m
     dt = 0.002001 ... 0.002101 s
     2051 ... 2151 particles
     2056 ... 2156 steps

@@ -93,13 +93,15 @@ fn set(path: &str, value: Value) -> impl Fn(&mut Value) {
     move |case| *case.pointer_mut(path).expect("a key") = value.clone()
 }
 
-#[test]
-fn smaller_error_of_a_lower_order_is_not_better() {
+#[rstest]
+#[case(1.94, Rank::Otherwise)]
+#[case(1.96, Rank::Better)]
+fn smaller_error_of_a_lower_order_is_not_better(#[case] order: f64, #[case] expected: Rank) {
     let found = after(&case("a", 1.0, 1.0), |case| {
         set("/levels/3/judged", json!(1e-4))(case);
-        set("/observed_order", json!({"value": 1.67}))(case);
+        set("/observed_order", json!({ "value": order }))(case);
     });
-    assert_eq!(rank(&found), Some(Rank::Otherwise), "{}", text(&found));
+    assert_eq!(rank(&found), Some(expected), "{}", text(&found));
 }
 
 #[test]
@@ -185,6 +187,8 @@ fn a_new_failure_outweighs_a_better_finest_level() {
 #[rstest]
 #[case::rounding(1e-13, 3e-13, None)]
 #[case::rounding_is_lost(1e-13, 1e-9, Some(Rank::LessAccurate))]
+#[case::just_rounding(0.9e-11, 0.5e-11, None)]
+#[case::just_no_rounding(1.1e-11, 0.5e-11, Some(Rank::Better))]
 #[case::from_zero(0.0, 1e-14, None)]
 #[case::to_something(0.0, 1e-3, Some(Rank::LessAccurate))]
 fn rounding(#[case] old: f64, #[case] new: f64, #[case] expected: Option<Rank>) {
@@ -229,6 +233,17 @@ fn limits_of_a_sweep(#[case] old: Value, #[case] new: Value, #[case] expected: O
         |limit: &Value| sweep(&[Value::Null, Value::Null], &[limit.clone(), json!({"at": 2})]);
     let new = study(&new);
     assert_eq!(rank(&after(&study(&old), |case| *case = new.clone())), expected);
+}
+
+#[test]
+fn changed_rows_of_a_sweep_have_the_old_and_the_new_value() {
+    let [old, new] =
+        [("stable", 0.75, "at"), ("bounded_growth", 4.5, "above")].map(|(word, x, key)| {
+            sweep(&[run("stable"), run(word)], &[json!({ key: x }), json!({"at": 2})])
+        });
+    let page = text(&after(&old, |case| *case = new.clone()));
+    let notes = "    bar::a: d = 0.5: stable -> bounded growth\n    bar::a: d = 0.1: limit 0.7500 -> > 4.5\n";
+    assert!(page.contains(notes), "{page}");
 }
 
 /// The most important change comes first, and within one kind the largest change.
