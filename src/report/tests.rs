@@ -556,7 +556,7 @@ fn overview_counts_the_cases_of_each_kind() {
         1 => study.observed_limit = Some(Err(EstimateRefusal::Unusable)),
         _ => study.judgement.order = Some(interval(1.5 + k as f64, 1.0, 5.0)),
     });
-    let text = overview(&[estimates.clone()]);
+    let text = overview(std::slice::from_ref(&estimates));
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("in 2 of 3 cases; 1 of 4 cases have no estimate"), "{text}");
     assert!(glance(&[estimates]).contains("  odd    2.00..4.50  4 pass\n"));
@@ -574,7 +574,9 @@ fn report_describes_the_levels_with_crossings_and_failures() {
             level.run.counters.crossings = Some(count);
         }
         let failed = if k == 2 { &mut study.levels[1..] } else { &mut study.levels[2..][..k / 3] };
-        failed.iter_mut().for_each(|level| level.run.failure = Some("broken".to_owned()));
+        for level in failed {
+            level.run.failure = Some("broken".to_owned());
+        }
     }));
     for line in [
         "  crossings     particles change cells on the finest level only (case-0)\n",
