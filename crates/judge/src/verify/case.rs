@@ -222,8 +222,15 @@ fn observed_limit(levels: &[LevelOutcome]) -> Option<Result<LimitEstimate, Estim
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::verify::conservation::Balance;
     use crate::verify::convergence::tests::study;
-    use crate::verify::{Conserved, Level, OrderHypothesis, UnmetCode, judge};
+    use crate::verify::judge_plan::tests::{level_run, plan};
+    use crate::verify::rerun::RoundingSizes;
+    use crate::verify::rerun::tests::{SIZES, scripted};
+    use crate::verify::{Axis, Conserved, Level, OrderHypothesis, Requirement, UnmetCode, judge};
+    use approx::assert_relative_eq;
+    use mpm_subject::Totals;
+    use rstest::rstest;
 
     fn level(usable: bool, error: f64, drift: Option<ConservationError>) -> LevelOutcome {
         let mut level = study(&[error]).levels.remove(0);
@@ -233,15 +240,107 @@ mod tests {
         level
     }
 
+    /// Drifts, speeds and rates have their extremes on different levels.
     #[test]
     fn only_levels_that_count_are_measured() {
-        let levels = [3.0, 1.0, 2.0].map(|error| level(true, error, None));
-        let [a, b, c] = levels;
-        let found = measure(&[a, b, c, level(false, 9.0, None)]);
-        assert_eq!(found.figures, [Some(3.0), Some(1.0), Some(9.0), None]);
-        assert_eq!(found.drift, None);
+        let all = [(true, 3.0, 0.5), (true, 1.0, 0.75), (true, 2.0, 0.25), (false, 9.0, 7.0)];
+        let mut levels: Vec<LevelOutcome> = all
+            .map(|(usable, error, mass)| {
+                let totals = |mass| Totals { mass, ..Totals::default() };
+                let mut balance = Balance::start(totals(1.0));
+                balance.look(Some(&totals(1.0 - mass)));
+                level(usable, error, Some(balance.drift()))
+            })
+            .into();
+        for (level, rate) in levels.iter_mut().zip([-3.0, 2.0, -1.0, 9.0]) {
+            level.run.energy_rate =
+                Some(Interval { value: rate, low: rate - 0.5, high: rate + 0.25 });
+            level.run.residual_speed = Some(4.0 - rate.abs());
+        }
+        let found = measure(&levels);
+        assert_eq!(found.figures, [Some(3.0), Some(1.0), Some(9.0), Some(3.0)]);
+        assert_eq!(found.drift.map(|drift| drift.of(Conserved::Mass)), Some(0.75));
+        assert_eq!(found.energy_rate, Some((-3.5, 2.25)));
+        (levels[1].run.drift, levels[1].run.energy_rate) = (None, None);
+        let found = measure(&levels);
+        assert_eq!((found.drift, found.energy_rate), (None, None));
         let found = measure(&[level(false, 1.0, None)]);
         assert_eq!(found.figure(CaseFigure::ErrorBelow), None);
+    }
+
+    fn runs(errors: [f64; 4]) -> Vec<LevelRun> {
+        let sizes = [4, 8, 16, 32].into_iter().zip(errors);
+        sizes.map(|(cells, error)| level_run(cells, 0.4 / cells as f64, error)).collect()
+    }
+
+    /// The bound of 99 steps is 8e4 m 2^-53 = 8.88e-12 m, or 8.88e-6 of the scale.
+    #[rstest]
+    #[case::all_within([8.8e-12, 1e-12, 3e-12, 2e-12], 4, "at rounding")]
+    #[case::fine_levels([6.4e-11, 1.6e-11, 4e-12, 1e-12], 2, "within bounds")]
+    #[case::one_above([9e-12, 8e-12, 9e-12, 8e-12], 2, "at floor")]
+    fn the_gate_accepts_rounding_errors(
+        #[case] errors: [f64; 4],
+        #[case] within: usize,
+        #[case] verdict: &str,
+    ) {
+        let required = Requirement {
+            order: Some(2.0),
+            error_below: None,
+            own_error_below: None,
+            because: String::new(),
+        };
+        let gating = Gating::Required(required);
+        let gated = JudgePlan { gating: Some(&gating), ..plan() };
+        let found = judge_case(&gated, runs(errors), &scripted(|h, _| h));
+        assert_eq!((found.verdict.as_str(), found.exemption), (verdict, None));
+        assert_eq!(found.unmet.is_empty(), verdict != "at floor");
+        let remark = format!("errors at most 8.9e-6 count as rounding: {within} of 4 levels");
+        let text = format!(
+            "{} {}",
+            found.reason,
+            found.unmet.iter().map(|u| &*u.text).collect::<String>()
+        );
+        assert!(text.contains(&remark), "{text}");
+        for level in &found.study.levels {
+            let bound = 8e4 / 9_007_199_254_740_992.0;
+            assert_relative_eq!(level.rounding_bound.unwrap(), bound, max_relative = 1e-14);
+        }
+        // Without a requirement, only a case whose errors are all within the bound is at rounding.
+        let free = judge_case(&plan(), runs(errors), &scripted(|h, _| h));
+        assert_eq!(free.verdict == "at rounding", within == 4, "{}", free.verdict);
+        assert_eq!(free.study.levels[0].rounding_bound, None);
+        let mut exact = scripted(|h, _| h);
+        exact.sizes = Some(RoundingSizes { unit: 0.0, ..SIZES });
+        assert_ne!(judge_case(&plan(), runs(errors), &exact).verdict, "at rounding");
+    }
+
+    /// Errors of order 2, 1 and 3 between the levels, and a displacement of 2 m - 3 m/s2 dt^2. The
+    /// step falls with the square of the cell size.
+    #[test]
+    fn a_case_has_the_orders_of_its_levels_and_the_limit_over_the_refined_spacing() {
+        let mut runs = runs([3.2e-5, 0.8e-5, 0.4e-5, 0.05e-5]);
+        for run in &mut runs {
+            run.sizes.dt = 6.4 * run.sizes.h * run.sizes.h;
+            run.run.displacement = Some(vec![2.0 - 3.0 * run.sizes.dt * run.sizes.dt]);
+        }
+        let mut plan = plan();
+        let found = judge_case(&plan, runs.clone(), &scripted(|h, _| h));
+        let orders: Vec<_> = found.study.levels.iter().map(|level| level.order).collect();
+        assert_eq!(orders[0], None);
+        for (order, expected) in orders[1..].iter().zip([2.0, 1.0, 3.0]) {
+            assert_relative_eq!(order.unwrap(), expected, max_relative = 1e-12);
+        }
+        for (axis, order) in [(Axis::Space, 4.0), (Axis::Time, 2.0)] {
+            plan.settings.axis = axis;
+            let study = judge_case(&plan, runs.clone(), &scripted(|h, _| h)).study;
+            let limit = study.observed_limit.expect("values").expect("a limit");
+            assert_relative_eq!(limit.limit.value, 2.0, max_relative = 1e-9);
+            assert_relative_eq!(limit.order.value, order, max_relative = 1e-6);
+        }
+        runs[0].run.displacement = Some(vec![1.0, 2.0]);
+        let study = judge_case(&plan, runs, &scripted(|h, _| h)).study;
+        let refusal = study.observed_limit.expect("three values").unwrap_err();
+        assert_eq!(refusal, EstimateRefusal::TooFewLevels { levels: 3 });
     }
 
     #[test]

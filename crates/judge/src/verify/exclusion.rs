@@ -160,11 +160,15 @@ mod tests {
         assert_eq!(single_precision_spacing(largest), expected);
     }
 
+    /// By hand for 1200 steps and a spacing of 1e-6 m: 1.2e-3/sqrt(12) m, and 1.2e-3/2 m.
     #[test]
-    fn the_bound_in_the_maximum_norm_is_larger_by_the_root_of_three() {
-        let [rms, linf] =
-            [NormName::MaxRms, NormName::Linf].map(|norm| rounding_bound(1200, 0.5, norm));
-        assert!((linf / rms - 3.0_f64.sqrt()).abs() < 1e-12, "{linf} {rms}");
+    fn rounding_errors_of_all_steps_add_up() {
+        for &norm in NormName::ALL {
+            let is_largest = matches!(norm, NormName::Linf | NormName::MaxLinf);
+            let bound = if is_largest { 6e-4 } else { 3.464_101_615_137_754e-4 };
+            let found = rounding_bound(1200, 1e-6, norm);
+            assert!((found / bound - 1.0).abs() < 1e-14, "{norm:?}: {found}");
+        }
     }
 
     fn level(error: f64, bound: Option<f64>, spread: Option<f64>) -> LevelOutcome {
@@ -178,7 +182,8 @@ mod tests {
     #[case::at_the_bound(level(1.0, Some(1.0), None), None)]
     #[case::below_the_bound(level(0.9, Some(1.0), None), Some(Exclusion::Rounding))]
     #[case::at_a_tenth(level(1.0, None, Some(0.1)), None)]
-    #[case::above_a_tenth(level(1.0, None, Some(0.101)), Some(Exclusion::Spread))]
+    #[case::below_a_tenth_of_a_small_error(level(1e-6, None, Some(0.99e-7)), None)]
+    #[case::above_a_tenth(level(1e6, None, Some(1.01e5)), Some(Exclusion::Spread))]
     #[case::unknown_spread(level(1.0, None, Some(f64::NAN)), Some(Exclusion::Spread))]
     #[case::no_error_and_no_spread(level(0.0, None, Some(0.0)), None)]
     #[case::unknown_error(level(f64::NAN, Some(1.0), None), None)]
@@ -187,5 +192,35 @@ mod tests {
         #[case] expected: Option<Exclusion>,
     ) {
         assert_eq!(level.exclusion(), expected);
+    }
+
+    #[test]
+    fn excluded_levels_are_listed_with_their_own_bounds() {
+        let mut levels: Vec<LevelOutcome> =
+            [4.0, 0.9, 0.4, 0.3].map(|e| level(e, None, None)).into();
+        for (k, level) in levels.iter_mut().enumerate() {
+            level.cells = 10 + k as u64;
+        }
+        for (k, bound) in [(2, 0.41), (3, 0.31)] {
+            (levels[k].rounding_bound, levels[k].is_below_rounding) = (Some(bound), true);
+        }
+        levels[1].spread = Some(0.123);
+        let reason = |verdict: Verdict, levels: &[LevelOutcome]| {
+            let judgement = Judgement { verdict, ..study(&[1.0]).judgement };
+            let judgement = Judgement { reason: "why".to_owned(), ..judgement };
+            with_exclusions(judgement, levels, Axis::Space).reason
+        };
+        let spread = "; not counted because the spread between runs exceeds a tenth of the error: 11 cells (0.12)";
+        let down = "why; down to rounding: from 12 cells on the error lies below the rounding \
+                    bound, 0.41 m there";
+        assert_eq!(reason(Verdict::Converging, &levels), format!("{down}{spread}"));
+        let below = "why; not counted because the error lies below the rounding bound of single \
+                     precision (0.41 ... 0.31 m): 12 cells, 13 cells";
+        let advice = "; a larger amplitude raises the errors above the bound";
+        assert_eq!(reason(Verdict::TooFewLevels, &levels), format!("{below}{advice}{spread}"));
+        levels.swap(0, 3);
+        let below = below.replace("0.41 ... 0.31", "0.31 ... 0.41");
+        let below = below.replace("12 cells, 13 cells", "13 cells, 12 cells");
+        assert_eq!(reason(Verdict::Converging, &levels), format!("{below}{spread}"));
     }
 }

@@ -130,3 +130,65 @@ pub(super) fn usable_series(levels: &[LevelOutcome]) -> Vec<Level> {
     };
     levels.iter().map(marked).collect()
 }
+
+#[cfg(test)]
+pub(in crate::verify) mod tests {
+    use super::*;
+    use crate::verify::convergence::tests::study;
+    use crate::verify::{NormName, Norms, RunErrors};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// Creates the plan of a study in space of order 2, whose errors are divided by 1e-6 m.
+    pub(in crate::verify) fn plan() -> JudgePlan<'static> {
+        let settings = study(&[1.0]).settings;
+        JudgePlan {
+            settings: StudySettings { scale: Some(1e-6), norm: NormName::L2, ..settings },
+            excludes_crossings: true,
+            position_spacing: None,
+            sums: Vec::new(),
+            expectation: None,
+            gating: None,
+        }
+    }
+
+    /// Creates a level of a body of 1 m with 99 steps of `dt` (s) and the L2 error `error` (m).
+    pub(in crate::verify) fn level_run(cells: u64, dt: f64, error: f64) -> LevelRun {
+        let [rms, l1, linf] = [2.0, 3.0, 5.0].map(|factor| factor * error);
+        let at_end = Norms { rms, l1, l2: error, linf, mass_l2: None };
+        let errors = RunErrors { at_end, largest: Norms { l2: 7.0 * error, ..at_end } };
+        let run = study(&[1.0]).levels.remove(0).run;
+        let h = 1.0 / cells as f64;
+        let sizes = LevelSizes { cells, h, dt, ppc: Some(4), particle_spacing: 0.25 * h };
+        let run = RunResult { errors, steps: 99, ..run };
+        LevelRun { sizes, run, spread: None, stable_time_step: None }
+    }
+
+    /// The bound of 300 steps is 3e-6/sqrt(12) = 8.66e-7 m, compared with the error in metres.
+    #[rstest]
+    fn a_level_has_the_spacing_of_its_axis_and_errors_divided_by_the_scale(
+        #[values((Axis::Space, 0.125), (Axis::Time, 0.01), (Axis::Particles, 0.03125))]
+        (axis, spacing): (Axis, f64),
+        #[values((8.6e-7, true), (8.7e-7, false))] (error, is_below): (f64, bool),
+    ) {
+        let mut plan = JudgePlan { position_spacing: Some(1e-8), ..plan() };
+        plan.settings.axis = axis;
+        let mut run = level_run(8, 0.01, error);
+        (run.run.steps, run.spread, run.stable_time_step) = (300, Some(2e-8), Some(0.02));
+        let bare = plan.level(run.clone());
+        assert_eq!((bare.usable, bare.ppc), (true, None));
+        (run.run.counters.particles, run.run.counters.crossings) = (Some(32), Some(1));
+        let level = plan.level(run.clone());
+        assert_eq!((level.spacing, level.is_below_rounding), (spacing, is_below));
+        assert_eq!((level.cells, level.h, level.dt, level.ppc), (8, 0.125, 0.01, Some(4)));
+        assert_eq!((level.usable, level.stable_time_step), (false, Some(0.02)));
+        assert_relative_eq!(level.error, 1e6 * error, max_relative = 1e-14);
+        assert_relative_eq!(level.spread.unwrap(), 0.02, max_relative = 1e-14);
+        let bound = 3e-6 / 12.0_f64.sqrt();
+        assert_relative_eq!(level.rounding_bound.unwrap(), bound, max_relative = 1e-14);
+        (plan.excludes_crossings, plan.settings.compared) = (false, false);
+        plan.settings.scale = None;
+        let other = plan.level(run);
+        assert_eq!((other.usable, other.spread, other.error), (true, None, error));
+    }
+}

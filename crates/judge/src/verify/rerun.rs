@@ -173,3 +173,175 @@ pub(super) fn rounding<R: Reruns>(
     let walk = ROUNDINGS * unit * number * libm::sqrt(steps as f64 + 1.0);
     walk.min(MOST_ROUNDING * value) / plan.settings.scale.unwrap_or(1.0)
 }
+
+#[cfg(test)]
+pub(in crate::verify) mod tests {
+    use super::*;
+    use crate::verify::judge_plan::tests::{level_run, plan};
+    use crate::verify::{Expectation, FloorCause, Requirement, UnmetCode};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+    use std::sync::Mutex;
+
+    pub(in crate::verify) const SIZES: RoundingSizes =
+        RoundingSizes { value: 1e-3, number: 1e3, unit: f64::EPSILON / 2.0 };
+
+    /// Runs again with the error (m) `error(h, dt)`. With half the time step the error is 2e-7 m,
+    /// and with half the particle spacing 3e-7 m; other spacings cannot be halved.
+    pub(in crate::verify) struct Scripted<E> {
+        error: E,
+        can_halve: bool,
+        pub(in crate::verify) sizes: Option<RoundingSizes>,
+        /// Numbers of cells and time steps (s) of the runs with another step.
+        steps: Mutex<Vec<(u64, f64)>>,
+    }
+
+    pub(in crate::verify) fn scripted<E: Fn(f64, f64) -> f64 + Sync>(error: E) -> Scripted<E> {
+        Scripted { error, can_halve: true, sizes: Some(SIZES), steps: Mutex::default() }
+    }
+
+    impl<E: Fn(f64, f64) -> f64 + Sync> Reruns for Scripted<E> {
+        type Error = String;
+
+        fn can_halve(&self) -> bool {
+            self.can_halve
+        }
+
+        fn run_halved(&self, of: &LevelOutcome, axis: Axis) -> Option<Result<LevelRun, String>> {
+            Some(Ok(match axis {
+                Axis::Time => level_run(of.cells, of.dt, 2e-7),
+                Axis::Particles => level_run(of.cells, of.dt, 3e-7),
+                Axis::Space => return None,
+            }))
+        }
+
+        fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelRun, String> {
+            self.steps.lock().unwrap().push((level.cells, dt));
+            Ok(level_run(level.cells, dt, (self.error)(level.h, dt)))
+        }
+
+        fn rounding(&self) -> Option<RoundingSizes> {
+            self.sizes
+        }
+    }
+
+    /// Creates levels of 4 to 32 cells with the given time steps (s).
+    fn levels(dt: [f64; 4], error: impl Fn(f64, f64) -> f64) -> Vec<LevelOutcome> {
+        let runs = [4, 8, 16, 32].into_iter().zip(dt);
+        runs.map(|(cells, dt)| plan().level(level_run(cells, dt, error(1.0 / cells as f64, dt))))
+            .collect()
+    }
+
+    const SECOND: Requirement = Requirement {
+        order: Some(2.0),
+        error_below: None,
+        own_error_below: None,
+        because: String::new(),
+    };
+
+    /// Checks the order of levels with nearly constant steps, and returns the remark and the runs.
+    fn shortened(error: impl Fn(f64, f64) -> f64 + Sync) -> (GateResult, Vec<(u64, f64)>) {
+        let (plan, levels) = (plan(), levels([0.011, 0.01, 0.01, 0.01], &error));
+        let reruns = scripted(error);
+        let result = gate(&plan, &SECOND, &levels, &plan.judge_levels(&levels), &reruns);
+        let mut steps = reruns.steps.into_inner().unwrap();
+        steps.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        (result, steps)
+    }
+
+    /// The error of the step is proportional to its sixth power, so half the step leaves 1/64.
+    #[rstest]
+    #[case::of_a_quarter(0.1, Some("with 1/4 of the time step"))]
+    #[case::of_an_eighth(6.4, Some("with 1/8 of the time step"))]
+    #[case::of_a_sixteenth(409.6, None)]
+    fn steps_are_halved_up_to_three_times(#[case] size: f64, #[case] remark: Option<&str>) {
+        let error = |h: f64, dt: f64| 1e-6 * (h * h + size * libm::pow(dt / 0.01, 6.0));
+        let (result, steps) = shortened(error);
+        assert_eq!(result.result.is_ok(), remark.is_some());
+        let found = result.remark.unwrap_or_default();
+        assert!(found.starts_with(remark.unwrap_or_default()), "{found}");
+        let first = [(4, 0.0055), (8, 0.005), (16, 0.005), (32, 0.005), (4, 0.00275), (8, 0.0025)];
+        assert_eq!(steps[..6], first);
+        assert_eq!(steps.len(), if size == 0.1 { 8 } else { 12 });
+    }
+
+    #[rstest]
+    #[case::by_six_per_cent(0.94, 8, true)]
+    #[case::by_four_per_cent(0.96, 1, false)]
+    fn shorter_steps_must_lower_the_finest_error(
+        #[case] left: f64,
+        #[case] runs: usize,
+        #[case] is_met: bool,
+    ) {
+        let floor = |h: f64, dt: f64| match dt {
+            0.01.. => 0.01,
+            0.005.. if h < 0.04 => 0.01 * left,
+            0.005.. => 0.01,
+            _ => h * h,
+        };
+        let (result, steps) = shortened(|h, dt| 1e-6 * floor(h, dt));
+        assert_eq!((steps.len(), result.result.is_ok()), (runs, is_met), "{steps:?}");
+        assert_eq!(
+            result.result.err().map(|unmet| unmet.code),
+            (!is_met).then_some(UnmetCode::OrderTooLow)
+        );
+    }
+
+    /// The spacing falls to an eighth. The step counts as fixed if it falls to more than 0.354.
+    #[test]
+    fn a_step_that_falls_with_the_root_of_the_spacing_is_refined() {
+        let is_fixed = |first: f64, plan: &JudgePlan<'_>| {
+            is_step_fixed(plan, &levels([first, 0.02, 0.01, 0.01], |h, _| h))
+        };
+        let mut plan = plan();
+        assert_eq!([0.0282, 0.0284].map(|first| is_fixed(first, &plan)), [true, false]);
+        plan.settings.axis = Axis::Time;
+        assert!(!is_fixed(0.01, &plan));
+    }
+
+    /// By hand for 99 steps: 8 sqrt(100) 1e3 2^-53 m, but at most a hundredth of the value, both
+    /// divided by the scale.
+    #[rstest]
+    #[case::of_many_steps(1e-3, Some(1e-6), 8e10 / 9_007_199_254_740_992.0)]
+    #[case::of_a_small_value(1e-10, Some(1e-6), 1e-6)]
+    #[case::without_a_scale(1e-10, None, 1e-12)]
+    fn rounding_is_a_random_walk_divided_by_the_scale(
+        #[case] value: f64,
+        #[case] scale: Option<f64>,
+        #[case] expected: f64,
+    ) {
+        let (mut plan, mut levels) = (plan(), levels([0.01; 4], |h, _| h));
+        plan.settings.scale = scale;
+        levels[3].run.steps = 80;
+        let reruns =
+            Scripted { sizes: Some(RoundingSizes { value, ..SIZES }), ..scripted(|h, _| h) };
+        assert_relative_eq!(rounding(&plan, &levels, &reruns), expected, max_relative = 1e-14);
+        assert_eq!(rounding(&plan, &levels, &Scripted { sizes: None, ..reruns }), 0.0);
+    }
+
+    /// The finest level does not count, so the probes repeat the level before it.
+    #[test]
+    fn a_floor_is_probed_on_the_finest_level_that_counts() {
+        let of_order = Expectation::of_order(2.0, "");
+        let expected = Expectation { floor: Some(FloorCause::Time), ..of_order.clone() };
+        let mut plan = JudgePlan { expectation: Some(&expected), ..plan() };
+        let mut levels = levels([0.01; 4], |h, _| 1e-6 * h);
+        levels[3].usable = false;
+        let judgement = plan.judge_levels(&levels);
+        let mut reruns = scripted(|h, _| h);
+        let found = floor(&plan, &judgement, &levels, &reruns).expect("probes");
+        assert_relative_eq!(found.error, 1.0 / 16.0);
+        let probes: Vec<_> = found.probes.iter().map(|p| (p.axis, p.error.clone())).collect();
+        let [time, particles] = [2e-7 / 1e-6, 3e-7 / 1e-6];
+        assert_eq!(probes, [(Axis::Time, Ok(time)), (Axis::Particles, Ok(particles))]);
+        plan.settings.axis = Axis::Time;
+        let probes = floor(&plan, &judgement, &levels, &reruns).expect("probes").probes;
+        assert_eq!((probes.len(), probes[0].axis), (1, Axis::Particles));
+        reruns.can_halve = false;
+        assert!(floor(&plan, &judgement, &levels, &reruns).is_none());
+        plan.expectation = Some(&of_order);
+        assert!(floor(&plan, &judgement, &levels, &scripted(|h, _| h)).is_none());
+        let flat = Judgement { verdict: Verdict::AtFloor, ..judgement };
+        assert!(floor(&plan, &flat, &levels, &scripted(|h, _| h)).is_some());
+    }
+}
