@@ -60,7 +60,9 @@ mod tests {
     #[case::lost(-0.01)]
     #[case::made(3e-5)]
     fn exponential_energy_has_its_exact_rate(#[case] rate: f64) {
-        let found = energy_rate(&account(203, |t| 7.0 * libm::exp(rate * t))).unwrap();
+        // The first three of 203 instants do not fit into ten equal parts.
+        let energy = |t: f64| if t < 3.0 { 1e6 } else { 7.0 * libm::exp(rate * t) };
+        let found = energy_rate(&account(203, energy)).unwrap();
         assert_abs_diff_eq!(found.value, rate, epsilon = 1e-12);
         assert_abs_diff_eq!(found.half_width(), 0.0, epsilon = 1e-12);
     }
@@ -75,6 +77,17 @@ mod tests {
         assert!(torn.low < -1e-4 && -1e-4 < torn.high && torn.half_width() > 1e-7, "{torn:?}");
         // An incomplete period in a part has little effect on the mean of the part.
         assert!(torn.half_width() < 1e-2 / 1000.0, "{torn:?}");
+    }
+
+    /// By hand for ten parts of 5 s with ln E = -+1: Sxx = 25 82.5, Sxy = -25, rss = 10 - 25/82.5,
+    /// and t(0.975, 8) = 2.306.
+    #[test]
+    fn interval_of_a_rate_by_hand() {
+        let energy = |t: f64| libm::exp(if (t / 5.0) as u32 % 2 == 0 { 1.0 } else { -1.0 });
+        let rate = energy_rate(&account(50, energy)).unwrap();
+        assert_relative_eq!(rate.value, -1.0 / 82.5, max_relative = 1e-12);
+        let half_width = 2.306 * ((10.0 - 25.0 / 82.5) / 8.0 / (25.0 * 82.5_f64)).sqrt();
+        assert_relative_eq!(rate.half_width(), half_width, max_relative = 1e-4);
     }
 
     #[test]

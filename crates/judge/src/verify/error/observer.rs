@@ -171,6 +171,18 @@ mod tests {
         assert_eq!(history.velocity, [[7.0, 16.0, 14.0]]);
     }
 
+    /// Errors of 3e-6 and 4e-6 m/s have the RMS 5e-6/sqrt(2), and the largest exact speed is 1e-5.
+    #[test]
+    fn velocity_error_is_relative_to_the_largest_exact_speed() {
+        let velocity = vec![[0.0, 7e-6, 4e-6], [1.0, -1.4e-5, -1e-5]];
+        let history = History { label: vec![0.0], velocity };
+        assert_relative_eq!(
+            history.relative_error().unwrap(),
+            0.5 / 2.0_f64.sqrt(),
+            epsilon = 1e-14
+        );
+    }
+
     #[test]
     fn a_truth_at_rest_has_no_relative_velocity_error() {
         let history = History { label: vec![0.0], velocity: vec![[0.0, 1e-9, 0.0]] };

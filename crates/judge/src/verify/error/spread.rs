@@ -127,33 +127,53 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Creates a run with one instant, with the given labels (m) and displacements (m).
+    /// Creates a run with one instant, with the given labels (m) and displacements (m). The second
+    /// label has three times the weight and twice the mass of the first one.
     fn record(points: &[(f64, f64)], norm: NormName) -> RunRecord {
         let mut samples = Samples::default();
         for (label, u) in points {
-            samples.push(&[*label], &[*u], &[0.0], 1.0);
+            samples.push(&[*label], &[*u], &[0.0], 1.0 + 2.0 * label);
+            samples.mass.push(1.0 + label);
         }
         let mut record = RunRecord::for_norm(norm);
         record.add(Quantity::Displacement, &samples, &AtRest, 0.0);
         record
     }
 
-    /// The first two runs have equal norms, but differ at each label.
+    /// The first two runs have equal sizes, but differ at each label. The first and the last one
+    /// differ by 2e-6 and 4e-6 m.
     #[rstest]
     #[case(NormName::Linf, 4.0)]
     #[case(NormName::Rms, 10.0_f64.sqrt())]
-    #[case(NormName::L1, 3.0)]
+    #[case(NormName::L1, 3.5)]
+    #[case(NormName::L2, 13.0_f64.sqrt())]
+    #[case(NormName::MaxMassL2, 12.0_f64.sqrt())]
     fn spread_is_the_largest_difference_of_two_runs(#[case] norm: NormName, #[case] expected: f64) {
-        let runs = [[1.0, 2.0], [2.0, 1.0], [3.0, -2.0]];
-        let runs = runs.map(|[a, b]| record(&[(0.0, a), (1.0, b)], norm));
-        assert_relative_eq!(spread(&runs, norm), expected, max_relative = 1e-15);
+        let runs = [[1e-6, 2e-6], [2e-6, 1e-6], [3e-6, -2e-6]];
+        // The order of particles adds no spread.
+        let run = |[a, b]: [f64; 2]| {
+            let mut points = [(0.0, a), (1.0, b)];
+            if a > 1.5e-6 {
+                points.reverse();
+            }
+            record(&points, norm)
+        };
+        assert_relative_eq!(spread(&runs.map(run), norm), 1e-6 * expected, max_relative = 1e-14);
     }
 
+    /// Two runs differ by 5 m at the first and by 1 m at the last instant.
     #[test]
-    fn the_order_of_particles_adds_no_spread() {
-        let norm = NormName::MaxRms;
-        let runs = [[(0.0, 1.0), (1.0, 2.0)], [(1.0, 2.0), (0.0, 1.0)]];
-        assert_eq!(spread(&runs.map(|run| record(&run, norm)), norm).to_bits(), 0);
+    fn only_norms_over_instants_compare_all_instants() {
+        for (norm, expected) in [(NormName::Linf, 1.0), (NormName::MaxLinf, 5.0)] {
+            let run = |first: f64, last: f64| {
+                let mut run = record(&[(0.0, first)], norm);
+                let mut samples = Samples::default();
+                samples.push(&[0.0], &[last], &[0.0], 1.0);
+                run.add(Quantity::Displacement, &samples, &AtRest, 1.0);
+                run
+            };
+            assert_eq!(spread(&[run(1.0, 3.0), run(6.0, 4.0)], norm), expected);
+        }
     }
 
     #[test]
@@ -168,9 +188,10 @@ mod tests {
     fn sums_over_the_body_are_compared_over_the_instants() {
         let run = |value: f64| {
             let mut record = RunRecord::for_norm(NormName::MaxLinf);
-            record.sums = vec![[0.0; 3], [value, 0.0, 0.0]];
+            record.sums = vec![[0.0; 3], [0.0, 3.0 * value, 4.0 * value]];
             record
         };
-        assert_eq!(spread(&[run(1.0), run(3.0)], NormName::MaxLinf).to_bits(), 2.0_f64.to_bits());
+        let of = |norm| spread(&[run(1.0), run(3.0)], norm);
+        assert_eq!((of(NormName::MaxLinf), of(NormName::L1)), (10.0, 5.0));
     }
 }

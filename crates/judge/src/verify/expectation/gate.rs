@@ -284,6 +284,32 @@ mod tests {
         assert_eq!(check(Some(2.0), None, &errors).ok(), met);
     }
 
+    /// For the required order 2 the interval must reach 1.9 and exclude 1.4; for 0.8, 0.7 and 0.35.
+    #[rstest]
+    #[case::just_inside(2.0, Verdict::TooLow, (1.41, 1.91), true, false)]
+    #[case::below_the_lowest(2.0, Verdict::TooLow, (1.5, 1.89), false, false)]
+    #[case::half_an_order_lower(2.0, Verdict::Converging, (1.39, 2.3), false, false)]
+    #[case::low_order(0.8, Verdict::PreAsymptotic, (0.36, 0.71), true, false)]
+    #[case::half_of_a_low_order(0.8, Verdict::PreAsymptotic, (0.34, 0.71), false, false)]
+    #[case::at_a_floor(2.0, Verdict::AtFloor, (1.95, 2.05), false, false)]
+    #[case::one_above(2.0, Verdict::TooGood, (2.99, 3.2), true, false)]
+    #[case::more_than_one_above(2.0, Verdict::TooGood, (3.01, 3.2), true, true)]
+    fn an_interval_reaches_the_order_and_excludes_half_an_order_less(
+        #[case] order: f64,
+        #[case] verdict: Verdict,
+        #[case] (low, high): (f64, f64),
+        #[case] is_met: bool,
+        #[case] is_excess: bool,
+    ) {
+        let (required, levels) = (requirement(Some(order), None), levels(&of_order(1.0, 5)));
+        let judgement = judge(&levels, &required.hypothesis(Axis::Space));
+        let order = Some(Interval { value: 0.5 * (low + high), low, high });
+        let judgement = Judgement { verdict, order, ..judgement };
+        let met = required.check(&levels, Axis::Space, &judgement, 1e-14);
+        assert_eq!(met.is_ok(), is_met, "{met:?}");
+        assert_eq!(required.excess(&judgement).is_some(), is_excess);
+    }
+
     #[rstest]
     #[case::rounding(&[1e-15, 3e-15, 9e-15, 1e-14], Some(Acceptance::Rounding))]
     #[case::rounding_that_grows_above(&[1e-15, 3e-15, 9e-15, 1e-12], None)]

@@ -262,6 +262,28 @@ mod tests {
         assert!(limits.found(&measured()).ends_with("; drift of mass 0e0, momentum 0e0"));
     }
 
+    /// The mass drifts by 2e-13 of 1e6 kg, and the momentum by half of 4e-6 kg m/s.
+    #[test]
+    fn drifts_and_rates_are_reported_with_their_own_values() {
+        let start = Totals { mass: 1e6, momentum_size: 4e-6, ..Totals::default() };
+        let mut balance = Balance::start(start);
+        balance.look(Some(&Totals { mass: 1e6 - 2e-7, momentum: [0.0, 0.0, 2e-6], ..start }));
+        let (drift, energy_rate) = (Some(balance.drift()), Some((-3e-5, 2e-6)));
+        let measured = Measured { drift, energy_rate, ..measured() };
+        let rates = "[-3e-5, 2e-6]";
+        let unmet = limits().unmet(&measured).into_iter().map(|one| one.unmet.text);
+        assert_eq!(
+            unmet.collect::<Vec<_>>(),
+            [
+                "expected drift of mass at most 1e-13, got 2e-13".to_owned(),
+                "expected drift of momentum at most 0e0, got 5e-1".to_owned(),
+                format!("expected rate of energy within [-2e-5, 1e-5] 1/s, got {rates}"),
+            ]
+        );
+        let found = format!("; drift of mass 2e-13, momentum 5e-1; rate of energy {rates} 1/s");
+        assert!(limits().found(&measured).ends_with(&found));
+    }
+
     #[test]
     fn values_without_limits_are_not_checked() {
         assert!(Limits::default().unmet(&Measured::NONE).is_empty());

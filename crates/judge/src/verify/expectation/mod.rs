@@ -209,20 +209,31 @@ mod tests {
     }
 
     #[rstest]
-    #[case::all_met(SEEN, 0)]
-    #[case::verdict(CaseFindings { verdict: Verdict::Divergent, ..SEEN }, 1)]
-    #[case::interval_sticks_out_below(CaseFindings { order: Some((1.8, 2.05)), ..SEEN }, 1)]
-    #[case::interval_sticks_out_above(CaseFindings { order: Some((1.95, 60.0)), ..SEEN }, 1)]
-    #[case::no_order(CaseFindings { order: None, ..SEEN }, 1)]
-    #[case::nan_order(CaseFindings { order: Some((f64::NAN, f64::NAN)), ..SEEN }, 1)]
-    #[case::nan_pair(CaseFindings { finest_pair: Some(f64::NAN), ..SEEN }, 1)]
-    #[case::crossings(CaseFindings { crossings: Some(3), ..SEEN }, 1)]
-    #[case::crossings_not_counted(CaseFindings { crossings: None, ..SEEN }, 1)]
-    #[case::limit(CaseFindings { measured: Measured::NONE, ..SEEN }, 1)]
-    #[case::floor(CaseFindings { floor: Some(FloorCause::Nothing), ..SEEN }, 1)]
-    #[case::floor_not_told(CaseFindings { floor: None, ..SEEN }, 1)]
-    fn every_part_must_hold(#[case] found: CaseFindings, #[case] unmet: usize) {
-        assert_eq!(expectation().unmet(&found).len(), unmet, "{:?}", expectation().unmet(&found));
+    #[case::all_met(SEEN, None)]
+    #[case::verdict(CaseFindings { verdict: Verdict::Divergent, ..SEEN }, Some(UnmetCode::VerdictDiffers))]
+    #[case::failed(CaseFindings { verdict: Verdict::Failed, ..SEEN }, Some(UnmetCode::RunFailed))]
+    #[case::too_low(CaseFindings { verdict: Verdict::TooLow, ..SEEN }, Some(UnmetCode::OrderTooLow))]
+    #[case::too_good(CaseFindings { verdict: Verdict::TooGood, ..SEEN }, Some(UnmetCode::OrderTooHigh))]
+    #[case::interval_sticks_out_below(CaseFindings { order: Some((1.89, 2.05)), ..SEEN }, Some(UnmetCode::OrderTooLow))]
+    #[case::interval_sticks_out_above(CaseFindings { order: Some((1.95, 2.11)), ..SEEN }, Some(UnmetCode::OrderTooHigh))]
+    #[case::no_order(CaseFindings { order: None, ..SEEN }, Some(UnmetCode::VerdictDiffers))]
+    #[case::nan_order(CaseFindings { order: Some((f64::NAN, f64::NAN)), ..SEEN }, Some(UnmetCode::OrderTooHigh))]
+    #[case::nan_pair(CaseFindings { finest_pair: Some(f64::NAN), ..SEEN }, Some(UnmetCode::OrderTooLow))]
+    #[case::low_pair(CaseFindings { finest_pair: Some(1.89), ..SEEN }, Some(UnmetCode::OrderTooLow))]
+    #[case::high_pair(CaseFindings { finest_pair: Some(2.11), ..SEEN }, Some(UnmetCode::OrderTooHigh))]
+    #[case::crossings(CaseFindings { crossings: Some(3), ..SEEN }, Some(UnmetCode::CrossingsDiffer))]
+    #[case::crossings_not_counted(CaseFindings { crossings: None, ..SEEN }, Some(UnmetCode::CrossingsDiffer))]
+    #[case::limit(CaseFindings { measured: Measured::NONE, ..SEEN }, Some(UnmetCode::BoundExceeded))]
+    #[case::floor(CaseFindings { floor: Some(FloorCause::Nothing), ..SEEN }, Some(UnmetCode::FloorDiffers))]
+    #[case::floor_not_told(CaseFindings { floor: None, ..SEEN }, Some(UnmetCode::FloorDiffers))]
+    fn every_part_must_hold(#[case] found: CaseFindings, #[case] code: Option<UnmetCode>) {
+        let unmet = expectation().unmet(&found);
+        let codes: Vec<UnmetCode> = unmet.iter().map(|unmet| unmet.code).collect();
+        assert_eq!(codes, Vec::from_iter(code), "{unmet:?}");
+        // A limit of a method that is gone is reported as such.
+        let limited = Expectation { verdict: Some(Verdict::TooLow), ..expectation() };
+        let gone = limited.unmet(&found).iter().any(|unmet| unmet.code == UnmetCode::LimitGone);
+        assert_eq!(gone, found.verdict == Verdict::Converging);
     }
 
     #[test]

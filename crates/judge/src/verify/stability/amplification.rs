@@ -88,16 +88,16 @@ mod tests {
     use super::*;
     use mpm_subject::{RunCounters, Samples, Subject};
 
-    /// The step `a' = a/2 + b, b' = 3 b` of three numbers; `third` advances the third one.
+    /// The step `a' = a/2 + b, b' = 3 dt b` of three numbers; `third` advances the third one.
     struct Linear {
         state: Vec<f64>,
         third: fn(f64) -> f64,
     }
 
     impl Subject for Linear {
-        fn step(&mut self, _: f64) -> Result<(), Failure> {
+        fn step(&mut self, dt: f64) -> Result<(), Failure> {
             let [a, b, c] = self.state[..] else { return Ok(()) };
-            self.state = vec![0.5 * a + b, 3.0 * b, (self.third)(c)];
+            self.state = vec![0.5 * a + b, 3.0 * dt * b, (self.third)(c)];
             Ok(())
         }
 
@@ -135,6 +135,11 @@ mod tests {
         let expected = DMatrix::from_row_slice(2, 2, &[0.5, 4.0, 0.0, 3.0]);
         assert!((found - expected).amax() < 1e-9);
         assert_eq!(matrix(|c| 2.0 * c).unwrap().nrows(), 3);
+        // With b' = 3 b and then b' = 6 b, a' = a/4 + b/2 + 3 b.
+        let mut linear = Linear { state: vec![0.0; 3], third: |c| c };
+        let found = amplification(&mut linear, &[1.0, 2.0], 1e-6, 1e6).unwrap();
+        let expected = DMatrix::from_row_slice(2, 2, &[0.25, 3.5e12, 0.0, 18.0]);
+        assert!((found - &expected).component_div(&expected.map(|x| x.max(1.0))).amax() < 1e-9);
     }
 
     #[test]

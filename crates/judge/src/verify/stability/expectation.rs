@@ -127,16 +127,42 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
+    fn bounds(above: Option<f64>, below: Option<f64>, is: Option<(f64, f64)>) -> FigureBounds {
+        FigureBounds { is, above, below }
+    }
+
     /// For a limit outside the searched range, only a lower or upper bound is known.
     #[rstest]
-    #[case::far_enough(FigureBounds { above: Some(9.0), ..FigureBounds::default() }, true)]
-    #[case::not_far_enough(FigureBounds { above: Some(11.0), ..FigureBounds::default() }, false)]
-    #[case::bounded(FigureBounds { above: Some(9.0), below: Some(99.0), is: None }, false)]
-    #[case::a_value(FigureBounds { above: Some(9.0), below: None, is: Some((9.0, 0.5)) }, false)]
+    #[case::far_enough(bounds(Some(9.0), None, None), true)]
+    #[case::not_far_enough(bounds(Some(11.0), None, None), false)]
+    #[case::bounded(bounds(Some(9.0), Some(99.0), None), false)]
+    #[case::a_value(bounds(Some(9.0), None, Some((9.0, 0.5))), false)]
     #[case::anything(FigureBounds::default(), false)]
     fn a_limit_above_the_range(#[case] bounds: FigureBounds, #[case] holds: bool) {
         let unmet = bounds.unmet_by_limit(StabilityLimit::Above(10.0));
-        assert_eq!(unmet.is_empty(), holds, "{unmet:?}");
+        assert_eq!(unmet, if holds { vec![] } else { vec!["the limit is above 10"] });
+        // The same relations hold for a limit below a range that begins at 1/10.
+        let inverse = FigureBounds {
+            above: bounds.below.map(f64::recip),
+            below: bounds.above.map(f64::recip),
+            ..bounds
+        };
+        let unmet = inverse.unmet_by_limit(StabilityLimit::Below(0.1));
+        assert_eq!(unmet, if holds { vec![] } else { vec!["the limit is below 0.1"] });
+    }
+
+    #[test]
+    fn bounds_on_a_limit_in_the_range_are_reported_with_both_values() {
+        let bounds = bounds(Some(3e-6), Some(1e-6), Some((4e-6, 0.25)));
+        assert_eq!(
+            bounds.unmet_by_limit(StabilityLimit::At(2e-6)),
+            [
+                "expected the limit 4e-6 within 2.5e-1, got 2e-6 (off by 5.0e-1)",
+                "expected the limit at least 3e-6, got 2e-6",
+                "expected the limit at most 1e-6, got 2e-6",
+            ]
+        );
+        assert!(self::bounds(Some(2e-6), Some(2e-6), None).unmet("", 2e-6).is_empty());
     }
 
     /// A deviation of 13 % from a small value does not meet a relative bound of 0.1 %.

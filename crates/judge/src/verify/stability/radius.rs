@@ -93,15 +93,22 @@ mod tests {
     }
 
     #[rstest]
-    #[case::growing([2.0, 1.0, 0.0, 0.5], 2.0)]
-    #[case::turning([0.6, -0.8, 0.8, 0.6], 1.0)]
-    #[case::alternating([0.5, 0.0, 0.0, -3.0], 3.0)]
-    #[case::defective([1.0, 1.0, 0.0, 1.0], 1.0)]
-    #[case::nilpotent([0.0, 1.0, 0.0, 0.0], 0.0)]
-    fn radii(#[case] entries: [f64; 4], #[case] radius: f64) {
-        let matrix = two(entries);
-        assert_relative_eq!(spectral_radius(&matrix).radius, radius, epsilon = 1e-7);
-        assert_relative_eq!(by_powers(&matrix), radius, epsilon = 1e-7);
+    #[case::growing([2.0, 1.0, 0.0, 0.5], (2.0, 0.0))]
+    #[case::turning([0.6, -0.8, 0.8, 0.6], (0.6, 0.8))]
+    #[case::alternating([0.5, 0.0, 0.0, -3.0], (-3.0, 0.0))]
+    #[case::defective([1.0, 1.0, 0.0, 1.0], (1.0, 0.0))]
+    #[case::nilpotent([0.0, 1.0, 0.0, 0.0], (0.0, 0.0))]
+    fn radii(#[case] entries: [f64; 4], #[case] eigenvalue: (f64, f64)) {
+        for scale in [1e-6, 1.0, 1e6] {
+            let matrix = scale * two(entries);
+            let radius = scale * libm::hypot(eigenvalue.0, eigenvalue.1);
+            let found = spectral_radius(&matrix);
+            assert_relative_eq!(found.radius, radius, epsilon = 1e-7 * scale);
+            assert_relative_eq!(by_powers(&matrix), radius, epsilon = 1e-7 * scale);
+            let (re, im) = found.eigenvalue.unwrap_or_default();
+            assert_relative_eq!(re, scale * eigenvalue.0, epsilon = 1e-7 * scale);
+            assert_relative_eq!(im, scale * eigenvalue.1, epsilon = 1e-7 * scale);
+        }
     }
 
     #[test]
