@@ -123,6 +123,29 @@ mod tests {
         assert_eq!(factor("sin(q*X)*sin(t)"), None);
     }
 
+    /// A plate of 3 m x 2 m away from the origin, and a parameter of -2e-6 m/s.
+    #[test]
+    fn motions_in_the_plane_have_derivatives_and_a_volume() {
+        let names = ["X", "Y", "t", "q"];
+        let displacement = vec![bind("q*t*(X + 2*Y)", &names), bind("-3*q*t*(X + 2*Y)", &names)];
+        let (from, to) = (vec![1.0, 5.0], vec![4.0, 7.0]);
+        let plate = ParametricMotion { from, to, displacement, value: -2e-6 };
+        let state = plate.at(&[2.0, 6.0], 0.5);
+        let close = |found: &[f64], expected: [f64; 2]| {
+            found.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 1e-14)
+        };
+        assert!(close(&state.displacement, [-1.4e-5, 4.2e-5]), "{state:?}");
+        assert!(close(&state.displacement_slope, [7.0, -21.0]), "{state:?}");
+        assert!(close(&state.velocity, [-2.8e-5, 8.4e-5]), "{state:?}");
+        assert!(close(&state.velocity_slope, [14.0, -42.0]), "{state:?}");
+        let volume: f64 = plate.states(0.5).iter().map(|(_, weight)| weight).sum();
+        assert_abs_diff_eq!(volume, 6.0, epsilon = 1e-13);
+        assert_abs_diff_eq!(plate.velocity_factor().expect("a factor"), -5e5, epsilon = 1e-6);
+        assert!(plate.starts_at_rest_position());
+        let shifted = ParametricMotion { displacement: vec![bind("q*(1 + t)", &names)], ..plate };
+        assert!(!shifted.starts_at_rest_position());
+    }
+
     #[test]
     fn rounding_of_a_derivative_that_cancels_is_no_dependence() {
         for k in 1..=60 {

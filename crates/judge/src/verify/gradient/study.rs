@@ -174,6 +174,7 @@ impl GradientTerms {
 mod tests {
     use super::*;
     use crate::verify::gradient::Perturbed;
+    use rstest::rstest;
 
     /// Creates a study of J = q^2 at q = 1 on three levels, with `factor` times the derivative.
     fn study(factor: f64, error: impl Fn(f64) -> f64) -> GradientStudy {
@@ -205,25 +206,63 @@ mod tests {
         }
     }
 
+    /// Orders between neighbouring levels, from coarse to fine. The order of the line through three
+    /// levels is their mean.
+    #[rstest]
+    #[case::second_order([2.0, 2.0], &[])]
+    #[case::just_inside_below([1.96, 1.76], &[])]
+    #[case::just_inside_above([2.05, 2.24], &[])]
+    #[case::too_low([1.9, 1.78], &["order: expected 1.85 to 2.15, is 1.84"])]
+    #[case::too_high([2.1, 2.22], &["order: expected 1.85 to 2.15, is 2.16"])]
+    #[case::low_finest_pair([2.0, 1.74], &["order of the finest pair: expected 1.75 to 2.25, is 1.74"])]
+    #[case::high_finest_pair([2.0, 2.26], &["order of the finest pair: expected 1.75 to 2.25, is 2.26"])]
+    #[case::unknown([2.0, f64::NAN], &["order: expected 1.85 to 2.15, is NaN", "order of the finest pair: expected 1.75 to 2.25, is NaN"])]
+    fn orders_have_bounds_on_both_sides(#[case] orders: [f64; 2], #[case] unmet: &[&str]) {
+        let mut study = study(1.0, |_| 0.0);
+        let mut error = 1e-6;
+        for (k, level) in study.levels.iter_mut().enumerate() {
+            error *= if k == 0 { 1.0 } else { libm::exp2(-orders[k - 1]) };
+            (level.exact, level.gradient) = (-3e-6, -3e-6 - error);
+        }
+        let found = GradientTerms::of_gate(2.0).unmet(&study);
+        assert_eq!(found.iter().map(|one| one.text.as_str()).collect::<Vec<_>>(), unmet);
+        for (found, expected) in study.pairwise_orders().iter().zip(orders) {
+            assert!((found - expected).abs() < 1e-6 || expected.is_nan(), "{found} {expected}");
+        }
+    }
+
     #[test]
-    fn a_correct_derivative_of_second_order_meets_the_gate() {
-        let study = study(1.0, |h| h * h);
-        assert_eq!(study.state().0, GradientState::Smooth);
-        assert_eq!(GradientTerms::of_gate(2.0).unmet(&study), []);
+    fn terms_are_summarised_with_both_ranges() {
+        let state = Some(GradientState::Linear);
+        let text = ", order 1.35 to 1.65, order of the finest pair 1.25 to 1.75";
+        let terms = GradientTerms::of_gate(1.5);
+        assert_eq!(terms.summary(), format!("not wrong{text}"));
+        assert_eq!(GradientTerms { state, ..terms }.summary(), format!("linear{text}"));
     }
 
     #[test]
     fn each_check_is_named_when_it_fails() {
         let terms =
             GradientTerms { state: Some(GradientState::Smooth), ..GradientTerms::of_gate(2.0) };
-        let first = |study: &GradientStudy| terms.unmet(study).remove(0).text;
+        let first = |study: &GradientStudy| {
+            let unmet = terms.unmet(study).into_iter().next();
+            unmet.map_or(String::new(), |unmet| unmet.text)
+        };
         assert!(first(&study(2.0, |h| h * h)).starts_with("state: expected smooth, is wrong"));
-        assert!(first(&study(1.0, |h| h)).starts_with("order: expected 1.85 to 2.15, is 1.00"));
-        assert!(first(&study(1.0, |_| f64::NAN)).starts_with("order: expected"));
         let mut other = study(1.0, |h| h * h);
-        other.value.reported = 1.0 + 1e-11;
-        assert!(first(&other).contains("is not that of a run without derivatives"));
-        other.value.reported = f64::NAN;
+        for (reported, is_right) in [(1.0 + 9e-13, true), (1.0 - 1.1e-12, false), (f64::NAN, false)]
+        {
+            other.value.reported = reported;
+            let text = first(&other);
+            assert_eq!(text.is_empty(), is_right, "{text}");
+            assert!(is_right || text.contains("is not that of a run without derivatives, 1e0"));
+        }
+        other.value.reported = 1.0;
+        let points =
+            [(0.0, 0.0), (1.0, 2.0)].map(|(at, value)| SweepPoint { at, value, gradient: 1.0 });
+        other.sweep = Sweep::new(&points, 1e-15);
+        assert_eq!(other.state().0, GradientState::Jumps);
+        other.single_precision = true;
         assert_eq!(other.state().0, GradientState::Wrong);
     }
 }

@@ -69,6 +69,7 @@ impl Sweep {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rstest::rstest;
 
     fn sweep(f: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64) -> Option<Sweep> {
         let point = |k: u32| {
@@ -95,12 +96,39 @@ mod tests {
         assert!((jumps.share - 0.8).abs() < 1e-4, "{jumps:?}");
     }
 
+    /// By hand: the trapezia of unequal intervals are 3e-6 and 9e-6, and the function falls by 1e-6
+    /// more in the second one, so the change is 11e-6 with a jump of -1/11.
     #[test]
-    fn a_wrong_or_undefined_derivative_is_not_smooth() {
-        for factor in [2.0, 0.99, f64::NAN] {
-            let wrong = sweep(libm::sin, |q| factor * libm::cos(q)).expect("a change");
-            assert!(!wrong.is_smooth(), "{factor}");
-        }
+    fn integral_and_jump_by_hand() {
+        let points = [(1e6, 5e-6, 2e-12), (2.5e6, 8e-6, 2e-12), (4.5e6, 1.6e-5, 7e-12)];
+        let points = points.map(|(at, value, gradient)| SweepPoint { at, value, gradient });
+        let found = Sweep::new(&points, 5.4e-9).expect("a change");
+        assert!((found.change / 1.1e-5 - 1.0).abs() < 1e-12, "{found:?}");
+        assert!((found.share - 12.0 / 11.0).abs() < 1e-12, "{found:?}");
+        assert!(found.jumps.len() == 1 && (found.jumps[0] + 1.0 / 11.0).abs() < 1e-12);
+        let text = "over the sweep the integrated derivative is 1.0909 times the change, with a jump of -0.091";
+        assert_eq!(found.summary(), text);
+        // A rounding error of 5e-4 of the change could count as a jump.
+        assert_eq!(Sweep::new(&points, 5.6e-9), None);
+    }
+
+    /// A jump between 4 of 5 points of a linear function that falls by 4e6, and a derivative that
+    /// is wrong by a factor.
+    #[rstest]
+    #[case::small_jump(4.9e-4, 1.0, 0)]
+    #[case::large_jump(5.1e-4, 1.0, 1)]
+    #[case::small_factor(0.0, 1.000_9, 0)]
+    #[case::large_factor(0.0, 1.001_1, 0)]
+    #[case::other_sign(0.0, -1.0, 4)]
+    #[case::undefined(0.0, f64::NAN, 4)]
+    fn jumps_and_factors_have_bounds(#[case] jump: f64, #[case] factor: f64, #[case] jumps: usize) {
+        let point = |k: u32| {
+            let fall = -1e6 * f64::from(k) - if k > 2 { 4e6 * jump / (1.0 - jump) } else { 0.0 };
+            SweepPoint { at: 1e-6 * f64::from(k), value: fall, gradient: -1e12 * factor }
+        };
+        let found = Sweep::new(&(0..5).map(point).collect::<Vec<_>>(), 1e-9).expect("a change");
+        assert_eq!(found.jumps.len(), jumps, "{found:?}");
+        assert_eq!(found.is_smooth(), jump < 5e-4 && (factor - 1.0).abs() < 1e-3, "{found:?}");
     }
 
     #[test]

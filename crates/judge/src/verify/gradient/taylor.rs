@@ -191,6 +191,7 @@ fn longest_run(orders: &[Option<f64>], range: (f64, f64)) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rstest::rstest;
 
     /// Creates a Taylor test of `f` at q = 2 with this derivative and rounding error.
     fn taylor(f: impl Fn(f64) -> f64, gradient: f64, rounding: f64) -> Taylor {
@@ -213,6 +214,52 @@ mod tests {
         assert_eq!(judged.judge().0, GradientState::Smooth);
         for order in judged.orders().into_iter().flatten().take(6) {
             assert!((order - 2.0).abs() < 0.05, "{order}");
+        }
+    }
+
+    /// By hand for J = 3e-6 q^2 at q = -2e6 with g = -13 instead of -12 and e = -2e6/16: the values
+    /// are 12e6 and 3e-6 (17/16 q)^2, and the remainder is |3e-6 e^2 + e| = 78125.
+    #[test]
+    fn remainders_and_differences_by_hand() {
+        let q = -2e6;
+        let perturbed = |level: u32| {
+            let by = q * libm::exp2(-f64::from(level));
+            let value = |q: f64| 3e-6 * q * q;
+            Perturbed { level, by, above: value(q + by), below: value(q - by) }
+        };
+        let taylor = Taylor {
+            value: 12e6,
+            gradient: -13.0,
+            rounding: 1e4,
+            perturbed: (4..=8).map(perturbed).collect(),
+        };
+        let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
+        let remainders = [78_125.0, 50_781.25, 28_320.312_5, 14_892.578_125, 7_629.394_531_25];
+        for (found, expected) in taylor.remainders().into_iter().zip(remainders) {
+            assert!(close(found, expected), "{found} {expected}");
+        }
+        assert!(taylor.differences().into_iter().all(|found| close(found, -12.0)));
+        let orders = taylor.orders();
+        for (order, pair) in orders.iter().zip(remainders[..4].windows(2)) {
+            assert!(close(order.unwrap(), libm::log2(pair[0] / pair[1])), "{orders:?}");
+        }
+        // The smallest remainder is rounding.
+        assert_eq!(orders[3], None);
+    }
+
+    /// For J = q^3 at q = 2 the difference with e = 2^-15 is 12 + e^2, and 12 + 4 e^2 before. The
+    /// derivative may deviate from the former by ten times their change, 30 e^2.
+    #[rstest]
+    #[case::within_ten_changes(29.0, GradientState::Smooth)]
+    #[case::beyond_ten_changes(31.0, GradientState::Wrong)]
+    fn a_derivative_is_as_accurate_as_the_differences(
+        #[case] off: f64,
+        #[case] expected: GradientState,
+    ) {
+        for sign in [1.0, -1.0] {
+            let gradient = 12.0 + (1.0 + sign * off) * libm::exp2(-30.0);
+            let found = taylor(|q| q * q * q, gradient, 1e-15).judge();
+            assert_eq!(found.0, expected, "{}", found.1);
         }
     }
 
