@@ -1,11 +1,15 @@
 //! Tests on series with known results.
 
 use super::{
-    Agreement, ConvergingPart, End, Exponent, MethodCost, Ranking, Reach, Sample, TARGETS,
+    Agreement, ConvergingPart, End, Exponent, Machine, MethodCost, Ranking, Reach, Sample, TARGETS,
+    TimedSuite, Timing, Workload, by_transfers,
 };
+use crate::verify::convergence::tests::study;
+use crate::verify::{CaseOutcome, StudyResults, SuiteOutcome};
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 use rstest::rstest;
+use std::sync::Arc;
 
 fn level(spacing: f64, error: f64, work: f64) -> Sample {
     Sample { spacing, error, work, usable: true, asymptotic: true, failed: false }
@@ -153,6 +157,67 @@ fn the_finest_target_decides_and_who_reaches_less_comes_last() {
     assert_eq!((short.times[2], short.obstacle()), (None, Some(End::Levels)));
     assert_eq!((cheap.obstacle(), broken.obstacle()), (None, Some(End::NoTrend)));
     assert_eq!((short.front.len(), costly.front.len(), broken.front.len()), (4, 0, 0));
+}
+
+/// Creates a case with five levels of order 2 after the first one, which have 30, 120, ... transfers.
+fn case(name: &str, problem: &str, size: f64, transfers: u64) -> CaseOutcome {
+    let mut study = study(&[8e-7, 4e-8, 1e-8, 2.5e-9, 6.25e-10]);
+    study.settings.error_scale.problem = problem.to_owned();
+    (study.settings.error_scale.size, study.settings.error_scale.growth) = (size, 3.0);
+    for (k, level) in study.levels.iter_mut().enumerate() {
+        level.run.counters.transfers = transfers << (2 * k);
+    }
+    let study = Some(StudyResults::Convergence(Arc::new(study)));
+    CaseOutcome { study, ..CaseOutcome::new(name, "mpm", Vec::new()) }
+}
+
+/// Errors are divided by the size of the solution, 2e-6 m or 4e-5 m: 1e-2 is 2e-8 or 4e-7 m.
+#[test]
+fn cases_are_ranked_by_problem_with_relative_errors() {
+    let cases = [
+        case("dear", "a", 2e-6, 60),
+        case("other", "b", 4e-5, 30),
+        case("external", "a", 2e-6, 0),
+        case("cheap", "a", 2e-6, 30),
+        case("unknown", "a", f64::NAN, 30),
+    ];
+    let all = by_transfers(&cases);
+    let rankings: Vec<_> =
+        all.iter().map(|one| (one.problem.as_str(), one.size, names(one))).collect();
+    assert_eq!(rankings, [("a", 2e-6, vec!["cheap", "dear"]), ("b", 4e-5, vec!["other"])]);
+    let cheap = &all[0].rows[0];
+    let sample = cheap.method.samples[2];
+    assert_relative_eq!(sample.error, 5e-3, max_relative = 1e-14);
+    assert_eq!((sample.spacing, sample.work), (0.25, 480.0));
+    assert_eq!((cheap.method.formal_order, cheap.method.growth), (2.0, 3.0));
+    let asymptotic: Vec<bool> = cheap.method.samples.iter().map(|one| one.asymptotic).collect();
+    assert_eq!(asymptotic, [false, true, true, true, true]);
+    // The error halves with the root of the work between 120 and 480 transfers.
+    assert_relative_eq!(cheap.reaches[0].work().unwrap(), 240.0, max_relative = 1e-12);
+    assert_relative_eq!(all[0].rows[1].times[0].unwrap(), 2.0, max_relative = 1e-12);
+    assert_relative_eq!(cheap.best.unwrap(), 3.125e-4, max_relative = 1e-14);
+    let seconds = |case: f64| {
+        [1.0, 2.0, 4.0, 8.0, 16.0].map(|k| Timing::of(&[0.5 * k * case, k * case, 9.0 * k * case]))
+    };
+    let load = Workload { transfers: 1.0, updates: 1.0, steps: 1.0 };
+    let levels =
+        [5.0, 1.0, 3.0, 2.0, 7.0].map(|case| seconds(case).map(|timing| (load, timing)).into());
+    let outcome = SuiteOutcome {
+        suite: String::new(),
+        group: String::new(),
+        title: String::new(),
+        source: String::new(),
+        about: String::new(),
+        statement: Vec::new(),
+        meaning: 0,
+        cases: cases.into(),
+    };
+    let machine = Machine { cores: 1, load: None, waited: None, fixed_loop: None };
+    let timed = TimedSuite { outcome, levels: levels.into(), machine };
+    assert_eq!(timed.timing("external", 3).map(|timing| timing.median), Some(24.0));
+    let first = &timed.by_seconds()[0];
+    assert_eq!(names(first), ["cheap", "external", "dear"]);
+    assert_eq!(first.rows[0].method.samples[2].work, 8.0);
 }
 
 fn series() -> impl Strategy<Value = Vec<Sample>> {

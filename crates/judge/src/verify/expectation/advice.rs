@@ -102,8 +102,10 @@ mod tests {
 
     #[rstest]
     #[case::clear(2.01, 0.01, true)]
-    #[case::only_just(2.08, 0.015, false)]
-    #[case::uncertain(2.0, 0.05, false)]
+    #[case::at_half_of_the_distance(2.08, 0.0099, true)]
+    #[case::only_just(2.08, 0.0101, false)]
+    #[case::certain(2.0, 0.0374, true)]
+    #[case::uncertain(2.0, 0.0376, false)]
     #[case::outside(2.11, 0.0, false)]
     #[case::outside_below(1.89, 0.0, false)]
     #[case::far_below(1.0, 0.0, false)]

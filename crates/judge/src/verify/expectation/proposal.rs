@@ -226,16 +226,33 @@ mod tests {
         assert_eq!(keys(&study), ["verdict: failed"]);
     }
 
+    /// 30 times the largest drift of a level that counts is rounded up to a power of ten.
     #[test]
-    fn proposed_drift_bound_has_a_margin() {
+    fn proposed_bounds_have_a_margin() {
         let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);
-        study.drifts = vec![Conserved::Mass];
-        for level in &mut study.levels {
-            let totals = |mass| Totals { mass, ..Totals::default() };
-            let mut balance = Balance::start(totals(1.0));
-            balance.look(Some(&totals(1.0 - 1e-13)));
+        study.drifts = vec![Conserved::Momentum, Conserved::Mass, Conserved::KineticEnergy];
+        let start =
+            Totals { mass: 1e6, momentum_size: 1e-6, kinetic_energy: 1.0, ..Totals::default() };
+        for (level, drift) in study.levels.iter_mut().zip([1e-14, 1e-13, 1e-15, 1e-3]) {
+            let mut balance = Balance::start(start);
+            let momentum = [0.0, 0.04 * drift * 1e-6, 0.0];
+            let kinetic_energy = 1.0 - 110.0 * drift;
+            balance.look(Some(&Totals {
+                mass: 1e6 * (1.0 - drift),
+                momentum,
+                kinetic_energy,
+                ..start
+            }));
             level.run.drift = Some(balance.drift());
         }
-        assert_eq!(keys(&study), ["order: [1.9, 2.1]", "drift: {mass: 1e-11}"]);
+        study.levels[3].usable = false;
+        let drift = "drift: {mass: 1e-11, momentum: 1e-12}";
+        assert_eq!(keys(&study), ["order: [1.9, 2.1]", drift]);
+        // Without an order, errors are bounded by twice the largest one of a level that counts.
+        study.judgement.verdict = Verdict::TooFewLevels;
+        study.levels[0].error = 1.2e-6;
+        study.levels[1].error = 1.6e-6;
+        study.levels[2].error = 1e-6;
+        assert_eq!(keys(&study), ["error_below: 4e-6", drift]);
     }
 }

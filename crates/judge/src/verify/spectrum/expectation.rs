@@ -72,7 +72,7 @@ fn percent(share: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verify::WaveFigures;
+    use crate::verify::{SpectrumStudy, WaveFigures};
 
     const EXPECTED: SpectrumExpectation =
         SpectrumExpectation { phase_within: Some(0.02), damping_within: Some(0.02) };
@@ -105,6 +105,17 @@ mod tests {
         assert_eq!(EXPECTED.unmet(&failed), ["8 cells, C = 0.4: broke"]);
         let unknown = SpectrumRow { predicted: None, ..row(Some(-0.05), -0.1) };
         assert_eq!(EXPECTED.unmet(&unknown).len(), 1);
+    }
+
+    #[test]
+    fn the_largest_phase_error_and_the_smallest_amplitude_are_reported() {
+        let failed = SpectrumRow { measured: Err("broke".to_owned()), ..row(None, 0.0) };
+        let rows = vec![row(Some(-0.05), libm::log(0.9)), row(Some(0.03), libm::log(0.25)), failed];
+        let text = "phase error up to 5.00 %, amplitude per period at least 0.2500, over 3 runs";
+        let mut study = SpectrumStudy { rows };
+        assert_eq!((study.reason(), study.fails()), (format!("{text}, 1 of them failed"), true));
+        study.rows.pop();
+        assert_eq!((study.reason(), study.fails()), (text.replace("3 runs", "2 runs"), false));
     }
 
     #[test]

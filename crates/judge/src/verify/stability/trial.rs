@@ -234,9 +234,10 @@ mod tests {
     use mpm_subject::{RunCounters, Totals};
     use rstest::rstest;
 
-    /// One point of mass 2 under a stress of 1, with a given kinetic energy (J) for each step.
+    /// One point of mass 2 under a constant stress, with a given kinetic energy (J) for each step.
     struct Scripted {
         kinetic: Vec<f64>,
+        stress: f64,
         step: usize,
     }
 
@@ -249,7 +250,7 @@ mod tests {
         fn sample(&self, samples: &mut Samples) {
             samples.restart(1);
             samples.push(&[0.0], &[0.0], &[0.0], 1.0);
-            samples.stress.push(1.0);
+            samples.stress.push(self.stress);
         }
 
         fn counters(&self) -> RunCounters {
@@ -263,33 +264,118 @@ mod tests {
         }
     }
 
-    /// Runs a scripted solver. With a modulus of 1/2 the stress stores 1 J.
+    const SCALES: Scales = Scales {
+        speed: 1.0,
+        modulus: 0.5,
+        stable_below: 2.0,
+        unstable_above: 100.0,
+        centred: false,
+        null_space: false,
+    };
+
+    /// Runs a scripted solver. With a modulus of 1/2 the stress of 1 stores 1 J.
     fn watched(kinetic: &[f64], centred: bool) -> Trial {
-        let mut subject = Scripted { kinetic: kinetic.to_vec(), step: 0 };
-        let scales = Scales {
-            speed: 1.0,
-            modulus: 0.5,
-            stable_below: 2.0,
-            unstable_above: 100.0,
-            centred,
-            null_space: false,
-        };
+        let mut subject = Scripted { kinetic: kinetic.to_vec(), stress: 1.0, step: 0 };
+        let scales = Scales { centred, ..SCALES };
         trial(&mut subject, &[1.0], kinetic.len() as u64 - 1, &scales)
     }
 
+    /// Two particles of 2 and 4 m2 in the plane, whose third step fails. The stresses at the start
+    /// and at the end store (2 25 + 4 169) 1e12/(2 1e6) = 3.63e8 J, and four times as much between.
+    struct Plane(usize);
+
+    impl Subject for Plane {
+        fn step(&mut self, _: f64) -> Result<(), Failure> {
+            self.0 += 1;
+            let failure = Failure::External("stopped".to_owned());
+            if self.0 < 3 { Ok(()) } else { Err(failure) }
+        }
+
+        fn sample(&self, samples: &mut Samples) {
+            let factor = [1.0, 2.0, 1.0, 1.0][self.0];
+            samples.restart(2);
+            samples.push(&[0.0, 0.0], &[factor, 0.0], &[0.0, 3e-6], 2.0);
+            samples.push(&[3.0, 1.0], &[0.9, -1.2], &[5e-6 * factor, -12e-6 * factor], 4.0);
+            let stress = [3e6, 0.0, 0.0, 4e6, -5e6, 0.0, 0.0, -12e6];
+            samples.stress.extend(stress.map(|s| factor * s));
+        }
+
+        fn counters(&self) -> RunCounters {
+            RunCounters { min_j: 0.75, ..RunCounters::new(0) }
+        }
+
+        fn totals(&self) -> Option<Totals> {
+            let k = self.0;
+            Some(Totals {
+                kinetic_energy: [1e8, 4e8, 0.5e8, 0.5e8][k],
+                momentum: [[0.0; 3], [3.0, 4.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]][k],
+                momentum_size: [40.0, 50.0, 20.0, 20.0][k],
+                angular_momentum: [0.0, 0.0, [7.0, 5.0, 6.0, 6.0][k]],
+                angular_momentum_size: 8.0,
+                ..Totals::default()
+            })
+        }
+
+        fn null_space_energy(&self) -> Option<f64> {
+            Some([1e7, 2e8, 1e8, 1e8][self.0])
+        }
+    }
+
+    /// Runs the plane with a wave speed of 2e-6 m/s and a modulus of 1e6 Pa.
+    fn plane(steps: u64, unstable_above: f64, null_space: bool) -> Trial {
+        let (speed, modulus, stable_below) = (2e-6, 1e6, 3.99);
+        let scales = Scales { speed, modulus, stable_below, unstable_above, null_space, ..SCALES };
+        trial(&mut Plane(0), &[0.5, 0.25], steps, &scales)
+    }
+
+    /// The energies are 4.63e8, 18.52e8 and 4.13e8 J, and the pressures at the end -3.5 and 8.5 MPa.
     #[test]
-    fn the_largest_energy_of_a_run_decides() {
-        let found = watched(&[3.0, 11.0, 1.0], false);
-        assert_eq!(found.verdict, Stability::BoundedGrowth);
-        let figures = [
-            (RunFigure::Energy, 3.0),
-            (RunFigure::EnergyKept, 0.5),
-            (RunFigure::KineticKept, 1.0 / 3.0),
-        ];
-        for (figure, expected) in figures {
+    fn measured_values_of_a_run_by_hand() {
+        let found = plane(2, 4.01, true);
+        assert_eq!((found.verdict, found.why.clone()), (Stability::BoundedGrowth, None));
+        for &figure in RunFigure::ALL {
+            let expected = match figure {
+                RunFigure::Energy => 4.0,
+                RunFigure::EnergyKept => 4.13 / 4.63,
+                RunFigure::KineticKept => 0.5,
+                RunFigure::Momentum => 0.1,
+                RunFigure::AngularMomentum => 0.25,
+                RunFigure::LeastJ => 0.75,
+                RunFigure::Speed => 13.0,
+                RunFigure::NullShare => 0.25,
+                RunFigure::LargestNullShare => 0.5,
+                RunFigure::Checkerboard => (288.0 / 84.5_f64).sqrt(),
+                RunFigure::StressSpread => 12.0 / 8.5,
+                RunFigure::Stress => 13.0,
+                RunFigure::Displacement => 1.5,
+                RunFigure::Steps => 2.0,
+            };
             assert_relative_eq!(figure.of(&found), expected, max_relative = 1e-14);
         }
-        assert_eq!(watched(&[3.0, 5.0, 1.0], false).verdict, Stability::Stable);
+        assert!(plane(2, 4.01, false).null_share.is_nan());
+    }
+
+    #[test]
+    fn growth_and_failure_are_reported_with_step_and_time() {
+        let grown = plane(2, 3.99, false);
+        assert_eq!((grown.verdict, grown.steps), (Stability::Unstable, 1));
+        let why = "the energy is 4.0e0 times its initial value (step 1, t = 5.0000e-1 s)";
+        assert_eq!(grown.why.as_deref(), Some(why));
+        let failed = plane(9, 4.01, false);
+        assert_eq!((failed.verdict, failed.steps), (Stability::Failed, 3));
+        assert_eq!(failed.why.as_deref(), Some("the solver stopped (step 3, t = 1.2500e0 s)"));
+        let looked_at = |step| is_looked_at(step, 99);
+        assert_eq!([1, 64, 65, 80, 98, 99].map(looked_at), [true, true, false, true, false, true]);
+    }
+
+    /// A unit strain of a volume of 1 stores half the modulus.
+    #[test]
+    fn energy_from_rest_is_relative_to_a_unit_strain() {
+        let mut subject = Scripted { kinetic: vec![0.0, 6e-6], stress: 0.0, step: 0 };
+        let scales = Scales { modulus: 8e-6, ..SCALES };
+        let found = trial(&mut subject, &[1.0], 1, &scales);
+        assert_relative_eq!(found.energy, 1.5, max_relative = 1e-14);
+        assert_eq!(found.verdict, Stability::Stable);
     }
 
     /// A body of 2 kg and 4 kg m/s has an energy of 4 J, all due to its common motion.
@@ -299,20 +385,50 @@ mod tests {
         assert_relative_eq!(watched(&[5.0, 9.0], false).energy, 10.0 / 6.0, max_relative = 1e-14);
     }
 
-    #[test]
-    fn bounded_growth_is_neither_stable_nor_unstable() {
-        let trial = watched(&[3.0, 11.0, 1.0], false);
-        for share in [0.9, 1.1] {
-            let prediction = Prediction { limit: StabilityLimit::At(1.0), leaves: None };
-            let critical = Critical {
-                predicted: Some(prediction),
-                confirmed: vec![(share, trial.clone())],
-                observed: None,
-            };
-            let row =
-                StabilityRow { value: 1.0, trial: None, critical: Some(critical), refused: None };
-            assert_eq!(StabilityExpectation::default().unmet(&row).len(), 1, "{share}");
+    fn limit(limit: StabilityLimit, runs: &[(f64, Stability)]) -> StabilityRow {
+        let trial = |verdict| Trial { verdict, ..watched(&[3.0, 4.0], false) };
+        let confirmed = runs.iter().map(|(share, verdict)| (*share, trial(*verdict))).collect();
+        let predicted = Some(Prediction { limit, leaves: None });
+        let critical = Some(Critical { predicted, confirmed, observed: None });
+        StabilityRow { value: 1.0, trial: None, critical, refused: None }
+    }
+
+    #[rstest]
+    #[case::stable(Stability::Stable, [true, true, false, false])]
+    #[case::bounded_growth(Stability::BoundedGrowth, [false; 4])]
+    #[case::unstable(Stability::Unstable, [false, false, true, true])]
+    #[case::failed(Stability::Failed, [false, false, true, true])]
+    fn runs_on_both_sides_confirm_a_limit(#[case] verdict: Stability, #[case] agrees: [bool; 4]) {
+        use StabilityLimit::{Above, At, Below};
+        for ((predicted, share), agrees) in
+            [(At(5.0), 0.98), (Above(9.0), 1.0), (At(5.0), 1.02), (Below(1.0), 1.0)]
+                .into_iter()
+                .zip(agrees)
+        {
+            let unmet =
+                StabilityExpectation::default().unmet(&limit(predicted, &[(share, verdict)]));
+            let words = verdict.words();
+            let text = format!("a run at {share} of the predicted limit is {words} after 1 steps");
+            assert_eq!(unmet, if agrees { vec![] } else { vec![text] });
         }
+    }
+
+    #[test]
+    fn a_search_is_summarised_by_its_lowest_and_highest_limit() {
+        let runs = [(0.98, Stability::Stable), (1.02, Stability::Unstable)];
+        let all = [StabilityLimit::At(0.7), StabilityLimit::Above(9.0), StabilityLimit::At(0.3)];
+        let rows: Vec<StabilityRow> = all.map(|at| limit(at, &runs[..1])).into();
+        let mut study = StabilityStudy {
+            swept: "rho".to_owned(),
+            sought: Some("C".to_owned()),
+            figures: Vec::new(),
+            rows,
+        };
+        study.rows[2] = limit(all[2], &runs);
+        let text = "from 0.3 to 0.7 for 3 values of `rho`; 4 runs at 0.98, 1.02 times the predicted limits";
+        assert_eq!((study.reason().as_str(), study.verdict().as_str()), (text, "limit of C"));
+        study.rows = vec![limit(all[1], &[])];
+        assert_eq!(study.reason(), "none in the range, for 1 value of `rho`");
     }
 
     #[test]
@@ -331,7 +447,13 @@ mod tests {
         };
         let (stable, grown) = (row(&[3.0, 4.0]), row(&[3.0, 11.0]));
         assert!(!study(vec![stable.clone(), stable.clone()]).fails());
-        assert!(study(vec![stable.clone(), grown]).fails());
+        let mixed = study(vec![stable.clone(), stable.clone(), grown]);
+        assert!(mixed.fails());
+        let texts = (mixed.verdict(), mixed.reason());
+        assert_eq!(
+            texts,
+            ("stable, bounded growth".into(), "stable for 2 of 3 values of `C`".into())
+        );
         assert!(study(vec![StabilityRow { trial: None, ..stable }]).fails());
     }
 
