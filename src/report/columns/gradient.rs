@@ -79,3 +79,60 @@ pub(crate) fn sweep(study: &GradientStudy) -> Option<Value> {
     let jumps: Vec<Value> = sweep.jumps.iter().map(|jump| number(*jump)).collect();
     Some(json!({"change": number(sweep.change), "share": number(sweep.share), "jumps": jumps}))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::json_objects;
+    use super::*;
+    use crate::verify::{Sweep, Taylor, ValueCheck};
+
+    fn texts<R>(columns: &[TableColumn<'_, R>], rows: &[R]) -> Vec<String> {
+        let row = |row| columns.iter().map(|one| one.cell(row).text).collect::<Vec<_>>().join(" ");
+        rows.iter().map(row).collect()
+    }
+
+    /// The remainders are |2.5 - 1 - 1| and |1.625 - 1 - 0.5|, and the integral of the sweep is 10.
+    #[test]
+    fn tables_of_a_gradient_by_hand() {
+        let level =
+            |(cells, h, dt, gradient, exact)| GradientLevel { cells, h, dt, gradient, exact };
+        let at = |(level, by, above, below)| Perturbed { level, by, above, below };
+        let point = |(at, value, gradient)| SweepPoint { at, value, gradient };
+        let points = [(1.0, 7.0, 4.0), (3.0, 15.0, 6.0)].map(point);
+        let study = GradientStudy {
+            functional: "kinetic_energy",
+            parameter: "young",
+            single_precision: false,
+            value: ValueCheck { reported: 1.0, computed: 1.0, tolerance: 0.0 },
+            taylor: Taylor {
+                value: 1.0,
+                gradient: 2.0,
+                rounding: 1e-15,
+                perturbed: [(4, 0.5, 2.5, 0.25), (5, 0.25, 1.625, 0.75)].map(at).into(),
+            },
+            levels: [(4, 1.0, 0.5, 5.0, 1.0), (8, 0.5, 0.01, -2.0, -3.0)].map(level).into(),
+            sweep: Sweep::new(&points, 1e-15),
+            points: points.into(),
+            evidence: None,
+        };
+        let (rows, remainders) = (level_rows(&study), taylor_rows(&study));
+        assert_eq!(
+            texts(&levels(), &rows),
+            [
+                "4 5.000e-01 5.000e+00 1.000e+00 4.000e+00 -",
+                "8 1.000e-02 -2.000e+00 -3.000e+00 1.000e+00 2.00",
+            ]
+        );
+        assert_eq!(
+            texts(&taylor(), &remainders),
+            ["4 5.000e-01 - 2.250e+00", "5 1.250e-01 2.00 1.750e+00"]
+        );
+        let second = json!({"cells": 8, "dt": 0.01, "gradient": -2.0, "exact": -3.0, "error": 1.0, "order": 2.0});
+        assert_eq!(json_objects(&levels(), rows)[1], second);
+        let second = json!({"level": 5, "remainder": 0.125, "order": 2.0, "difference": 1.75});
+        assert_eq!(json_objects(&taylor(), &remainders[1..])[0], second);
+        let second = json!({"parameter": 3.0, "value": 15.0, "gradient": 6.0});
+        assert_eq!(json_objects(&self::points(), study.points.clone())[1], second);
+        assert_eq!(sweep(&study), Some(json!({"change": 8.0, "share": 1.25, "jumps": [-0.25]})));
+    }
+}

@@ -1,6 +1,10 @@
 //! Parts of a run, and the merged report of all parts.
 
 use super::{BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
+use crate::common::{built_in_suite, valid_suite};
+use approx::assert_relative_eq;
+use mpm_verify::prelude::{Extent, Suite};
+use mpm_verify::study::{Shard, estimate, estimates, unit_seconds};
 use rstest::rstest;
 use serde_json::Value;
 
@@ -89,7 +93,93 @@ fn json_list_has_the_predicted_costs() {
     assert_eq!(names, ["short-bar", "other-bar", "ambitious-bar"]);
     let case = &suites[0]["cases"][0];
     assert_eq!(case["case"], "mpm-linear-flip-musl");
-    // 16 + 24 + 32 + 48 particles, 50 steps each.
+    // 16 + 24 + 32 + 48 particles, 50 steps each, and 2.5e-7 s for each.
     assert_eq!(case["particle_steps"], 6000.0);
-    assert!(case["seconds"].as_f64().is_some_and(|seconds| seconds > 0.0), "{case}");
+    assert_relative_eq!(case["seconds"].as_f64().expect("a number"), 1.5e-3, max_relative = 1e-12);
+}
+
+/// Creates a translation of a body of 3 x 2 x 1 m (or less) in a grid of 6 x 5 x 4 m, until 1 s.
+fn moving(dimension: usize, dt: f64, schemes: &str) -> Suite {
+    let list = |all: [&str; 3]| all[..dimension].join(", ");
+    let (from, to, end) = (list(["1", "2", "3"]), list(["4"; 3]), list(["6", "5", "4"]));
+    let (rest, ppc) = (list(["0"; 3]), 1 << dimension);
+    let [velocity, displacement] = ["0.1", "\"0.1*t\""].map(|first| list([first, "0", "0"]));
+    valid_suite(&format!(
+        r#"suite: moving-{dimension}
+title: A translation
+source: none
+scene:
+  dimension: {dimension}
+  body: {{box: {{from: [{from}], to: [{to}]}}}}
+  grid: {{from: [{rest}], to: [{end}]}}
+  material: {{hencky: {{young: 1, poisson: 0, density: 1}}}}
+  initial_velocity: [{velocity}]
+exact: {{equation: hencky, displacement: [{displacement}]}}
+run: {{until: 1, dt: {dt}}}
+refine: {{cells: [6, 12], full: [24], ppc: {ppc}}}
+methods: [{{mpm: {{basis: linear, transfer: flip, scheme: {schemes}}}}}]
+"#
+    ))
+}
+
+/// With 2^D particles per cell of 1, 1/2 and 1/4 m, the bodies have 6, 24 and 48 particles on the
+/// coarsest level, and 2^D times as many on each finer one. The grids of the last two levels have 13
+/// and 25, 13 x 11 and 25 x 21, and 13 x 11 x 9 and 25 x 21 x 17 nodes. The bar needs 100 12 + 40 13
+/// bytes, the plate 250 96 + 70 143, and the block 450 384 + 100 1287.
+#[rstest]
+#[case::bar(1, [6.0, 12.0, 24.0], 2.5e-7, [1720.0, 2400.0 + 1000.0])]
+#[case::plate(2, [24.0, 96.0, 384.0], 6e-7, [34_010.0, 250.0 * 384.0 + 70.0 * 525.0])]
+#[case::block(3, [48.0, 384.0, 3072.0], 1.8e-6, [301_500.0, 450.0 * 3072.0 + 100.0 * 8925.0])]
+fn predicted_costs_by_hand(
+    #[case] dimension: usize,
+    #[case] particles: [f64; 3],
+    #[case] seconds: f64,
+    #[case] bytes: [f64; 2],
+) {
+    let suite = moving(dimension, 0.1, "[musl, usl]");
+    let [coarse, fine, full] = particles.map(|particles| 10.0 * particles);
+    let whole = estimate(&suite).expect("levels");
+    assert_eq!((whole.particle_steps, whole.bytes), (2.0 * (coarse + fine), bytes[0]));
+    assert_relative_eq!(whole.seconds, seconds * whole.particle_steps, max_relative = 1e-14);
+    let each = estimates(&suite, Extent::Full);
+    let case = each[1].expect("levels");
+    assert_eq!((each.len(), case.particle_steps), (2, coarse + fine + full));
+    assert_eq!(case.bytes, bytes[1]);
+    let units = unit_seconds(&suite, Extent::Full);
+    let expected = [coarse, fine, full, coarse, fine, full].map(|steps| seconds * steps);
+    assert_eq!(units.len(), 6);
+    for (unit, expected) in units.into_iter().zip(expected) {
+        assert_relative_eq!(unit, expected, max_relative = 1e-14);
+    }
+}
+
+/// The cases cost 1 ms and, in milliseconds, 7.776 (block), 2 x 7.2 (plate) and 0.045 (bar). The
+/// study of another kind counts as 500 ms. The next case always goes to the least loaded part.
+#[test]
+fn expensive_cases_are_distributed_first() {
+    let suites = [
+        moving(1, 0.1, "musl"),
+        moving(2, 0.01, "[musl, usl]"),
+        moving(3, 0.1, "musl"),
+        built_in_suite("grid-crossing"),
+    ];
+    let part = |number: usize, count: usize, extent: Extent, suites: &[Suite]| -> String {
+        let shard: Shard = format!("{number}/{count}").parse().expect("a shard");
+        let part = shard.of(suites, extent).into_iter();
+        let named = part.map(|suite| format!("{}:{} ", &suite.name[..8], suite.case_names().len()));
+        named.collect()
+    };
+    let others = suites[3].case_names().len();
+    for (number, expected) in [(1, "moving-1:1 moving-3:1 "), (2, "moving-2:2 ")] {
+        assert_eq!(part(number, 2, Extent::Usual, &suites[..3]), expected);
+    }
+    let all =
+        [format!("grid-cro:{others} "), "moving-1:1 moving-3:1 ".into(), "moving-2:2 ".into()];
+    let found =
+        [1, 2, 3].map(|number| part(number + others - 1, others + 2, Extent::Usual, &suites));
+    assert_eq!(found[1..], all[1..]);
+    // With the finest level the block costs 63 ms, more than the other cases together.
+    for (number, expected) in [(1, "moving-3:1 "), (2, "moving-1:1 moving-2:2 ")] {
+        assert_eq!(part(number, 2, Extent::Full, &suites[..3]), expected);
+    }
 }

@@ -4,41 +4,41 @@ use super::bar;
 use super::library::Maker;
 use crate::common::folder::assert_contains;
 use crate::common::valid_suite;
+use approx::assert_relative_eq;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::report;
 use mpm_verify::study::{Runner, under};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::Extent;
 use mpm_verify::verify::{CaseOutcome, Exclusion, LevelOutcome, SuiteOutcome};
-use std::sync::atomic::{AtomicU64, Ordering};
+use rstest::rstest;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
 
-/// Finite differences whose displacements differ between runs by up to `noise` (m) at every
-/// particle, as if each run added in another order.
+/// Finite differences whose displacements are larger by 0, 3 and 1 times `noise` (m) in successive
+/// runs of a level. Run number `fails` of the finest level fails.
 struct Unsteady {
     noise: f64,
-    runs: AtomicU64,
+    fails: Option<usize>,
+    /// Number of runs for each number of cells.
+    runs: Mutex<BTreeMap<u64, usize>>,
 }
 
 struct Perturbed {
     solver: Box<dyn Subject>,
-    noise: f64,
-    run: u64,
+    offset: f64,
+    fails: bool,
 }
 
 impl Subject for Perturbed {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        self.solver.step(dt)
+        let stopped = Failure::External("stopped".to_owned());
+        if self.fails { Err(stopped) } else { self.solver.step(dt) }
     }
 
     fn sample(&self, samples: &mut Samples) {
         self.solver.sample(samples);
-        // A linear congruential generator, with another stream for each run.
-        let mut state = self.run.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-        for u in &mut samples.displacement {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            let share = (state >> 11) as f64 / (1_u64 << 53) as f64;
-            *u += self.noise * (2.0 * share - 1.0);
-        }
+        samples.displacement.iter_mut().for_each(|u| *u += self.offset);
     }
 
     fn counters(&self) -> RunCounters {
@@ -52,16 +52,21 @@ impl SolverFactory for Unsteady {
     }
 
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        let solver = Maker("differences").subject(problem)?;
-        let run = self.runs.fetch_add(1, Ordering::Relaxed);
-        Ok(Box::new(Perturbed { solver, noise: self.noise, run }))
+        let cells = problem.grid.cells[0];
+        let mut runs = self.runs.lock().unwrap();
+        let run = runs.entry(cells).or_default();
+        *run += 1;
+        let offset = [0.0, 3.0, 1.0][(*run - 1) % 3] * self.noise;
+        let fails = cells >= 12 && self.fails == Some(*run);
+        Ok(Box::new(Perturbed { solver: Maker("differences").subject(problem)?, offset, fails }))
     }
 }
 
-/// Runs each level of the suite three times with the unsteady solver.
-fn repeated(noise: f64) -> SuiteOutcome {
-    let solver = Unsteady { noise, runs: AtomicU64::new(1) };
-    let suite = under(&valid_suite(&bar()), &solver, false).expect("a convergence study");
+/// Runs each level of the suite three times with the unsteady solver. Errors are divided by 1e-6 m.
+fn repeated(noise: f64, fails: Option<usize>) -> SuiteOutcome {
+    let solver = Unsteady { noise, fails, runs: Mutex::default() };
+    let text = bar().replace("observe:", "judge: {scale: 1e-6}\nobserve:");
+    let suite = under(&valid_suite(&text), &solver, false).expect("a convergence study");
     Runner::over(&suite, Extent::Usual).judging(&solver).repeating(3).run(&|| ())
 }
 
@@ -71,7 +76,7 @@ fn levels(case: &CaseOutcome) -> &[LevelOutcome] {
 
 #[test]
 fn a_deterministic_solver_has_no_spread() {
-    let found = repeated(0.0);
+    let found = repeated(0.0, None);
     let case = &found.cases[0];
     for level in levels(case) {
         assert_eq!(level.spread.map(f64::to_bits), Some(0));
@@ -81,37 +86,47 @@ fn a_deterministic_solver_has_no_spread() {
     assert!(text.contains("spread between runs, in the norm of the error"), "{text}");
 }
 
-/// In the RMS norm, two of three runs differ by `noise` times the root of 2/3 on average.
-#[test]
-fn the_spread_is_the_difference_between_runs() {
-    let steady = repeated(0.0);
-    let noise = levels(&steady.cases[0]).last().expect("a level").error / 20.0;
-    let found = repeated(noise);
-    for level in levels(&found.cases[0]) {
-        let spread = level.spread.expect("a spread");
-        assert!(spread > 0.4 * noise && spread < 1.5 * noise, "{spread}");
-        assert_eq!(level.exclusion(), None);
+/// The spread of each level is three times the noise, divided by the scale. The errors are those of
+/// the first run.
+#[rstest]
+#[case::below_a_tenth_of_the_finest_error(0.099, "converging", None)]
+#[case::above_a_tenth_of_the_finest_error(0.101, "too few levels", Some(Exclusion::Spread))]
+fn a_level_counts_up_to_a_spread_of_a_tenth_of_its_error(
+    #[case] share: f64,
+    #[case] verdict: &str,
+    #[case] finest: Option<Exclusion>,
+) {
+    let steady = repeated(0.0, None);
+    let errors: Vec<f64> = levels(&steady.cases[0]).iter().map(|level| level.error).collect();
+    let error = errors[3];
+    assert!(errors[2] > 2.0 * error, "{errors:?}");
+    let found = repeated(share * error * 1e-6 / 3.0, None);
+    let case = &found.cases[0];
+    for (level, steady) in levels(case).iter().zip(&errors) {
+        assert_relative_eq!(level.spread.expect("a spread"), share * error, max_relative = 1e-6);
+        assert_eq!(level.error, *steady);
+    }
+    let exclusions: Vec<_> = levels(case).iter().map(LevelOutcome::exclusion).collect();
+    assert_eq!(exclusions, [None, None, None, finest]);
+    assert_eq!(case.verdict, verdict, "{}", case.reason);
+    if finest.is_some() {
+        let remark =
+            "not counted because the spread between runs exceeds a tenth of the error: 12 cells";
+        assert!(case.reason.contains(remark), "{}", case.reason);
+        let json = report::json(std::slice::from_ref(&found));
+        let keys = [r#""excluded_by": "spread""#, r#""counts": false"#, r#""spread": "#];
+        assert_contains(&json, &keys);
     }
 }
 
 #[test]
-fn a_level_whose_spread_exceeds_a_tenth_of_its_error_does_not_count() {
-    let steady = repeated(0.0);
-    let errors: Vec<f64> = levels(&steady.cases[0]).iter().map(|level| level.error).collect();
-    let [.., coarser, finest] = errors[..] else { panic!("two levels or more") };
-    assert!(coarser > 2.0 * finest, "{errors:?}");
-    // The spread is about 0.8 of the noise. This is 1/7 of the finest error, and less of the other
-    // errors.
-    let found = repeated(finest / 6.0);
-    let case = &found.cases[0];
-    let exclusions: Vec<_> = levels(case).iter().map(LevelOutcome::exclusion).collect();
-    assert_eq!(exclusions.last(), Some(&Some(Exclusion::Spread)), "{:?}", levels(case));
-    assert_eq!(exclusions[..exclusions.len() - 1], vec![None; exclusions.len() - 1]);
-    assert_eq!(case.verdict, "too few levels", "{}", case.reason);
-    let remark = "not counted because the spread between runs exceeds a tenth of the error";
-    assert!(case.reason.contains(remark), "{}", case.reason);
-    let json = report::json(std::slice::from_ref(&found));
-    assert_contains(&json, &[r#""excluded_by": "spread""#, r#""counts": false"#, r#""spread": "#]);
+fn failure_of_a_later_run_names_the_run() {
+    let found = repeated(0.0, Some(2));
+    let failures: Vec<_> =
+        levels(&found.cases[0]).iter().map(|one| one.run.failure.clone()).collect();
+    let failure = failures[3].as_deref().unwrap_or_default();
+    assert!(failure.starts_with("run 2 of 3: the solver stopped (step 1, t = "), "{failures:?}");
+    assert_eq!(failures[..3], [None, None, None]);
 }
 
 #[cfg(unix)]
