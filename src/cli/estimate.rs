@@ -264,6 +264,8 @@ mod tests {
 
     #[rstest]
     #[case([1.234_56, 0.001_2], "1.2346 +- 1.2e-3, 95 %: [1.2334, 1.2358]")]
+    #[case([-123_456.0, 7.0], "-123456.0 +- 7.0e0, 95 %: [-123463.0, -123449.0]")]
+    #[case([1.5e6, 2e3], "1.5000e6 +- 2.0e3, 95 %: [1.4980e6, 1.5020e6]")]
     #[case([1.5e-7, 2e-9], "1.500e-7 +- 2.0e-9, 95 %: [1.480e-7, 1.520e-7]")]
     fn an_interval_has_the_digits_of_its_width(#[case] size: [f64; 2], #[case] expected: &str) {
         let [value, half_width] = size;

@@ -135,6 +135,16 @@ mod tests {
         assert_eq!(value(Functional::PositionOf { particle: 1, axis: 1 }), 5.0);
     }
 
+    /// The largest coordinate is 5 m, the largest displacement 3 m, and the energy 40 J.
+    #[test]
+    fn rounding_errors_grow_with_the_largest_terms() {
+        let scale = |of: Functional| of.value(&[1.0, 3.0], &samples()).scale;
+        assert_eq!(scale(Functional::MeanDisplacement { axis: 0 }), 5.0);
+        assert_eq!(scale(Functional::MeanSquareDisplacement), 2.0 * 5.0 * 3.0);
+        assert_eq!(scale(Functional::KineticEnergy), 40.0);
+        assert_eq!(scale(Functional::PositionOf { particle: 0, axis: 0 }), 5.0);
+    }
+
     #[test]
     fn missing_particle_or_axis_has_no_value() {
         let value = |of: Functional| of.value(&[1.0, 3.0], &samples());

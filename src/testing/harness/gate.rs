@@ -277,7 +277,10 @@ pub(super) fn record_time(time: Duration, case: &str) {
 
 /// Returns the slowest cases and suites; empty if there are only a few cases.
 pub(super) fn slowest_cases() -> String {
-    let mut cases = CASES.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    slowest(CASES.lock().unwrap_or_else(PoisonError::into_inner).clone())
+}
+
+fn slowest(mut cases: Vec<(Duration, String)>) -> String {
     if cases.len() <= SHOWN {
         return String::new();
     }
@@ -304,6 +307,21 @@ pub(super) fn slowest_cases() -> String {
 mod tests {
     use super::*;
     use std::fs;
+
+    /// Cases of 1 to 11 s; suite b has those of 2, 4, 6 and 11 s.
+    #[test]
+    fn slowest_cases_and_suites_are_listed_with_their_times() {
+        let name = |k: u64| if [2, 4, 6, 11].contains(&k) { "b" } else { "a" };
+        let case = |k: u64| (Duration::from_millis(1000 * k), format!("{}::{k}", name(k)));
+        let line = |k: u64| format!("{k:>5}.00 s  {}::{k}\n", name(k));
+        let listed: String = (2..=11).rev().map(line).collect();
+        let text = slowest((1..=11).map(case).collect());
+        let (first, rest) = text.split_once('\n').expect("several lines");
+        assert!(first.starts_with("slowest of 11 cases; "), "{first}");
+        let suites = "slowest suites:\n   43.00 s  a\n   23.00 s  b\n\n";
+        assert_eq!(rest, format!("{listed}{suites}"));
+        assert_eq!(slowest((1..=10).map(case).collect()), "");
+    }
 
     /// The failure message names the snapshot file and the command that accepts the change.
     #[test]

@@ -1,6 +1,7 @@
 //! `mpm-verify estimate`.
 
 use super::{BAD_INPUT, FAILED, Folder, SOUND};
+use approx::assert_relative_eq;
 use serde_json::{Value, json};
 use std::io::Write;
 use std::process::Stdio;
@@ -40,9 +41,19 @@ fn json_has_the_intervals() {
     let folder = Folder::with("series.csv", SERIES);
     let out = folder.accepted(&["estimate", "series.csv", "--format", "json"]);
     let document: Value = serde_json::from_str(&out).expect("JSON");
-    let limit = &document["estimate"]["limit"];
-    let number = |key: &str| limit[key].as_f64().expect("a number");
-    assert!(number("low") < 1.0 && 1.0 < number("value") && number("value") < number("high"));
+    // The limits of the triples are 1.3125 - 0.4375 7/13 and 1.140625 - 0.171875 11/17, and the
+    // orders are log2(20/7) and log2(28/11).
+    let (coarse, limit) = (1.3125 - 0.4375 * 7.0 / 13.0, 1.140_625 - 0.171_875 * 11.0 / 17.0);
+    let [before, order] = [20.0 / 7.0, 28.0 / 11.0].map(libm::log2);
+    let (half_width, scatter) = (3.0 * (coarse - limit), 3.0 * (before - order));
+    for (key, value, half_width) in [("limit", limit, half_width), ("order", order, scatter)] {
+        for (end, sign) in [("low", -1.0), ("value", 0.0), ("high", 1.0)] {
+            let found = document["estimate"][key][end].as_f64().expect("a number");
+            assert_relative_eq!(found, value + sign * half_width, max_relative = 1e-9);
+        }
+    }
+    assert_eq!(document["estimate"]["finest"], 1.140_625);
+    assert_eq!(document["estimate"]["confidence"], 0.95);
     assert_eq!(document["levels"][3], json!({"h": 0.125, "value": 1.140_625}));
     assert_eq!(document["refusal"], Value::Null);
 }

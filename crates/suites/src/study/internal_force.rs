@@ -100,15 +100,34 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 mod tests {
     use super::*;
 
+    /// Deviations and steps are divided by the largest predicted force, 2e6 or 2e-6 N.
     #[test]
     fn a_force_that_is_no_number_agrees_with_nothing() {
-        let row = |force| ForceRow { position: 0.5, left: 2, right: 2, force, predicted: 1.0 };
-        let judged = |force| {
-            let rows = [row(1.0), row(force), row(1.0)];
-            let wanted = [ForceExpectation::AgreesWithin(0.1), ForceExpectation::StepsBelow(0.1)];
-            wanted.map(|wanted| judged_force(&rows, wanted).0)
+        let judged = |unit: f64, force: f64, share: f64| {
+            let row = |force, predicted| ForceRow {
+                position: 0.5,
+                left: 2,
+                right: 2,
+                force: unit * force,
+                predicted: unit * predicted,
+            };
+            let rows = [row(1.0, 1.0), row(force, -2.0), row(-2.0, -2.0)];
+            let wanted =
+                [ForceExpectation::AgreesWithin(share), ForceExpectation::StepsBelow(share)];
+            wanted.map(|wanted| judged_force(&rows, wanted))
         };
-        assert_eq!(judged(1.05), [true, true]);
-        assert_eq!(judged(f64::NAN), [false, false]);
+        for unit in [1e-6, 1e6] {
+            let [deviation, step] = judged(unit, -1.9, 1.44);
+            let text = "of the largest predicted force, over 3 positions";
+            let reasons = [
+                format!("largest deviation from the prediction 5.0e-2 {text}"),
+                format!("largest change between neighbouring positions 1.450 {text}"),
+            ];
+            assert_eq!((deviation.0, deviation.1, &deviation.2), (true, "agrees", &reasons[0]));
+            assert_eq!((step.0, step.1, &step.2), (false, "jumps", &reasons[1]));
+            assert_eq!(judged(unit, -1.9, 0.0499).map(|one| one.1), ["differs", "jumps"]);
+            assert_eq!(judged(unit, -1.9, 1.46).map(|one| one.1), ["agrees", "smooth"]);
+            assert_eq!(judged(unit, f64::NAN, 9.0).map(|one| one.0), [false, false]);
+        }
     }
 }

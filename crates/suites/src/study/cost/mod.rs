@@ -52,11 +52,12 @@ impl TimingJob<'_> {
         let Self { suite, plan, case, level, solver, .. } = *self;
         seconds_of(plan, case, level, || subject_under(solver, suite, plan, case, level))
     }
+}
 
-    fn is_done(&self) -> bool {
-        let (spent, repeats) = (self.seconds.iter().sum::<f64>(), self.seconds.len());
-        (repeats >= FEWEST && spent >= LEAST) || spent >= LONGEST || repeats >= MOST
-    }
+/// Whether these measured times (s) of a level are enough.
+fn is_done(seconds: &[f64]) -> bool {
+    let (spent, repeats) = (seconds.iter().sum::<f64>(), seconds.len());
+    (repeats >= FEWEST && spent >= LEAST) || spent >= LONGEST || repeats >= MOST
 }
 
 /// Measures the time (s) of the steps of a solver on a level, until the run ends or fails. The
@@ -147,7 +148,7 @@ fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn(
             let found = job.run();
             job.seconds.extend(found.iter());
             // A level whose set-up fails is not repeated.
-            let done = found.is_err() || job.is_done();
+            let done = found.is_err() || is_done(&job.seconds);
             if done {
                 progress();
             }
@@ -300,4 +301,17 @@ impl Observed {
 
 fn load_average() -> Option<f64> {
     std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn measurements_end_after_enough_of_them_or_enough_time() {
+        let enough = [(5, 0.0101), (1, 1.01), (2, 0.501), (200, 1e-6), (4, 0.251)];
+        assert_eq!(enough.map(|(count, each)| is_done(&vec![each; count])), [true; 5]);
+        let short = [(4, 0.2), (5, 0.0099), (1, 0.99), (199, 1e-6), (0, 0.0)];
+        assert_eq!(short.map(|(count, each)| is_done(&vec![each; count])), [false; 5]);
+    }
 }
