@@ -123,9 +123,9 @@ methods: [{{mpm: {{basis: linear, transfer: flip, scheme: {schemes}}}}}]
 }
 
 /// With 2^D particles per cell of 1, 1/2 and 1/4 m, the bodies have 6, 24 and 48 particles on the
-/// coarsest level, and 2^D times as many on each finer one. The grids of the last two levels have 13
-/// and 25, 13 x 11 and 25 x 21, and 13 x 11 x 9 and 25 x 21 x 17 nodes. The bar needs 100 12 + 40 13
-/// bytes, the plate 250 96 + 70 143, and the block 450 384 + 100 1287.
+/// coarsest level, and 2^D times as many on each finer one. The grids of the last two levels have
+/// 13 and 25, 13 x 11 and 25 x 21, and 13 x 11 x 9 and 25 x 21 x 17 nodes. The bar needs 100 12 +
+/// 40 13 bytes, the plate 250 96 + 70 143, and the block 450 384 + 100 1287.
 #[rstest]
 #[case::bar(1, [6.0, 12.0, 24.0], 2.5e-7, [1720.0, 2400.0 + 1000.0])]
 #[case::plate(2, [24.0, 96.0, 384.0], 6e-7, [34_010.0, 250.0 * 384.0 + 70.0 * 525.0])]

@@ -109,8 +109,6 @@ struct Differentiable {
     edit: Edit,
     /// Young's modulus above which the displacement jumps, if any.
     jump: Option<f64>,
-    /// Number of steps that are omitted before the value is reported.
-    short: u64,
     precision: Precision,
     error: Option<GradientError>,
 }
@@ -121,7 +119,6 @@ impl Differentiable {
             names: vec!["young", "density", "initial_velocity"],
             edit: |_| (),
             jump: None,
-            short: 0,
             precision: Precision::Double,
             error: None,
         }
@@ -156,7 +153,7 @@ impl SolverFactory for Differentiable {
             return Err(error.clone());
         }
         assert_eq!(request.of, Functional::MeanDisplacement { axis: 0 });
-        let steps = problem.steps - self.short;
+        let steps = problem.steps;
         let bar = Bar::of(&problem, steps as f64 * problem.dt);
         let mass = problem.particles.mass.clone();
         let moving = Moving { problem, steps, solver: self.clone() };
@@ -235,17 +232,6 @@ fn a_wrong_gradient_is_wrong_for_its_parameters(#[case] edit: Edit, #[case] wron
         assert_eq!(state == GradientState::Wrong, wrong, "{}: {}", case.case, case.reason);
         assert_eq!(case.passed(), !wrong, "{}: {:?}", case.case, case.unmet);
     }
-}
-
-#[test]
-fn a_value_of_another_step_is_wrong() {
-    let cases = cases(&Differentiable { short: 1, ..Differentiable::sound() });
-    assert_eq!(states(&cases), [GradientState::Wrong; 3]);
-    assert!(
-        cases[0].reason.contains("is not that of a run without derivatives"),
-        "{}",
-        cases[0].reason
-    );
 }
 
 #[rstest]

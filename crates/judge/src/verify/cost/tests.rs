@@ -159,7 +159,8 @@ fn the_finest_target_decides_and_who_reaches_less_comes_last() {
     assert_eq!((short.front.len(), costly.front.len(), broken.front.len()), (4, 0, 0));
 }
 
-/// Creates a case with five levels of order 2 after the first one, which have 30, 120, ... transfers.
+/// Creates a case with five levels of order 2 after the first one. Each level has four times the
+/// transfers of the one before.
 fn case(name: &str, problem: &str, size: f64, transfers: u64) -> CaseOutcome {
     let mut study = study(&[8e-7, 4e-8, 1e-8, 2.5e-9, 6.25e-10]);
     study.settings.error_scale.problem = problem.to_owned();

@@ -141,7 +141,7 @@ mod tests {
     fn a_limit_above_the_range(#[case] bounds: FigureBounds, #[case] holds: bool) {
         let unmet = bounds.unmet_by_limit(StabilityLimit::Above(10.0));
         assert_eq!(unmet, if holds { vec![] } else { vec!["the limit is above 10"] });
-        // The same relations hold for a limit below a range that begins at 1/10.
+        // A limit below a range that begins at 1/10 obeys these relations in reverse.
         let inverse = FigureBounds {
             above: bounds.below.map(f64::recip),
             below: bounds.above.map(f64::recip),

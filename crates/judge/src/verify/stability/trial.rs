@@ -328,7 +328,7 @@ mod tests {
         trial(&mut Plane(0), &[0.5, 0.25], steps, &scales)
     }
 
-    /// The energies are 4.63e8, 18.52e8 and 4.13e8 J, and the pressures at the end -3.5 and 8.5 MPa.
+    /// The energies are 4.63e8, 18.52e8 and 4.13e8 J. The pressures at the end are -3.5 and 8.5 MPa.
     #[test]
     fn measured_values_of_a_run_by_hand() {
         let found = plane(2, 4.01, true);
