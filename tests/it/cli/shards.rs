@@ -105,7 +105,7 @@ fn moving(dimension: usize, dt: f64, schemes: &str) -> Suite {
     let (rest, ppc) = (list(["0"; 3]), 1 << dimension);
     let [velocity, displacement] = ["0.1", "\"0.1*t\""].map(|first| list([first, "0", "0"]));
     valid_suite(&format!(
-        r#"suite: moving-{dimension}
+        r"suite: moving-{dimension}
 title: A translation
 source: none
 scene:
@@ -118,7 +118,7 @@ exact: {{equation: hencky, displacement: [{displacement}]}}
 run: {{until: 1, dt: {dt}}}
 refine: {{cells: [6, 12], full: [24], ppc: {ppc}}}
 methods: [{{mpm: {{basis: linear, transfer: flip, scheme: {schemes}}}}}]
-"#
+"
     ))
 }
 

@@ -452,7 +452,7 @@ fn derivatives_of_a_plate_are_compared_with_its_own_values() {
         assert_relative_eq!(study.taylor.rounding, rounding, max_relative = 1e-12);
         assert_relative_eq!(study.taylor.gradient, partial, max_relative = 1e-12);
         let ks: Vec<u32> = study.taylor.perturbed.iter().map(|one| one.level).collect();
-        assert_eq!(ks, Vec::from_iter(4..=16));
+        assert_eq!(ks, (4..=16).collect::<Vec<u32>>());
         for one in &study.taylor.perturbed {
             assert_relative_eq!(one.by, q * libm::exp2(-f64::from(one.level)));
             let slope = if study.parameter == "young" {

@@ -90,7 +90,8 @@ judge: {of: OF, scale: 1e-3}
 
 /// The bar ends at -3000 m, and its right end moves by 20 m and at up to 404 m/s. Its modulus is
 /// 1e6 Pa, and its strain 0.0125. By hand, the rounding error of 99 steps of positions of up to
-/// 3000 m plus 20 m is 8 sqrt(100) 3020 m 2^-53. The unit of single precision is 2^29 times as large.
+/// 3000 m plus 20 m is 8 sqrt(100) 3020 m 2^-53. The unit of single precision is 2^29
+/// times as large.
 #[rstest]
 #[case::displacement("displacement", Precision::Double, 3020.0)]
 #[case::velocity("velocity", Precision::Double, 40.0 / 0.099)]

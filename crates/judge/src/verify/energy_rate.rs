@@ -83,7 +83,8 @@ mod tests {
     /// and t(0.975, 8) = 2.306.
     #[test]
     fn interval_of_a_rate_by_hand() {
-        let energy = |t: f64| libm::exp(if (t / 5.0) as u32 % 2 == 0 { 1.0 } else { -1.0 });
+        let is_even = |t: f64| ((t / 5.0) as u32).is_multiple_of(2);
+        let energy = |t: f64| libm::exp(if is_even(t) { 1.0 } else { -1.0 });
         let rate = energy_rate(&account(50, energy)).unwrap();
         assert_relative_eq!(rate.value, -1.0 / 82.5, max_relative = 1e-12);
         let half_width = 2.306 * ((10.0 - 25.0 / 82.5) / 8.0 / (25.0 * 82.5_f64)).sqrt();

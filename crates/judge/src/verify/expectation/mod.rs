@@ -229,7 +229,7 @@ mod tests {
     fn every_part_must_hold(#[case] found: CaseFindings, #[case] code: Option<UnmetCode>) {
         let unmet = expectation().unmet(&found);
         let codes: Vec<UnmetCode> = unmet.iter().map(|unmet| unmet.code).collect();
-        assert_eq!(codes, Vec::from_iter(code), "{unmet:?}");
+        assert_eq!(codes, code.into_iter().collect::<Vec<_>>(), "{unmet:?}");
         // A limit of a method that is gone is reported as such.
         let limited = Expectation { verdict: Some(Verdict::TooLow), ..expectation() };
         let gone = limited.unmet(&found).iter().any(|unmet| unmet.code == UnmetCode::LimitGone);
