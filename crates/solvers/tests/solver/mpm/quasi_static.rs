@@ -3,9 +3,10 @@
 use approx::assert_relative_eq;
 use mpm_solvers::mpm::{
     BasisName, Block, Boundary, Effect, Fixed, Gravity, MaterialPlan, Matrix, Particles, Placement,
-    Quadrilateral, QuasiStatic, QuasiStaticSetup, Roller, Side, Traction, Vector, kernel,
+    Prestressed, Quadrilateral, QuasiStatic, QuasiStaticSetup, Roller, Side, Traction, Vector,
+    kernel,
 };
-use mpm_subject::{Failure, PlaneState, Site, Subject};
+use mpm_subject::{Failure, PlaneState, RunCounters, Site, Subject};
 use rstest::rstest;
 
 /// A column along the first axis under its own weight, with a fixed bottom and between rollers.
@@ -295,16 +296,103 @@ fn ring_between_rollers_is_a_column(#[values(1, 2)] load_steps: u64) {
     }
 }
 
-/// The reaction of the bottom must equal the weight.
+/// After load step k of N, the reaction of the bottom is k/N of the weight, at the time k.
 #[test]
-fn reaction_is_the_weight() {
-    let case = ColumnCase::drucker_prager(6, 2);
+fn reaction_is_the_weight_of_the_load_steps_so_far() {
+    let case = ColumnCase::drucker_prager(6, 4);
     let mut solver = case.build::<2>(BasisName::ContiguousGimp);
     assert!(Subject::reaction(&solver, None).is_none());
-    case.run(&mut solver);
     let weight: f64 = solver.particles().mass.iter().map(|mass| mass * case.gravity).sum();
-    let reaction = Subject::reaction(&solver, Some((0, false))).unwrap();
-    assert_relative_eq!(reaction.force[0], weight, max_relative = 1e-9);
+    for step in [1.0, 2.0, 3.0, 4.0] {
+        solver.step(1.0).unwrap();
+        let reaction = Subject::reaction(&solver, Some((0, false))).unwrap();
+        assert_relative_eq!(reaction.force[0], 0.25 * step * weight, max_relative = 1e-9);
+        assert_eq!(reaction.time, step);
+    }
+}
+
+/// A column whose ends are fixed is compressed at its bottom and stretched at its top. The bottom
+/// particle has the index 5. The column is loaded in two steps and then unloaded, so J is smallest
+/// after the second of four steps, and neither in the first nor in the last particle.
+#[test]
+fn least_j_is_that_of_all_particles_and_steps() {
+    let mut setup = ColumnCase { gravity: 750.0, ..ColumnCase::hencky(8, 2) }
+        .setup::<1>(BasisName::ContiguousGimp);
+    setup.boundary.push(Box::new(Fixed::face(&setup.grid, 0, Side::High)));
+    setup.particles.x.swap(0, 5);
+    setup.particles.x0.swap(0, 5);
+    let mut solver = QuasiStatic::new(setup).unwrap();
+    let mut least = vec![1.0];
+    for length in [1.0, 1.0, -1.0, -0.5] {
+        solver.step(length).unwrap();
+        let all: Vec<f64> = solver.particles().def_grad.iter().map(|f| f[(0, 0)]).collect();
+        least.push(all.iter().copied().fold(f64::INFINITY, f64::min));
+        assert!(all[5] == least[least.len() - 1] && all[5] < 0.95, "{all:?}");
+        let expected = least.iter().copied().fold(f64::INFINITY, f64::min);
+        assert_relative_eq!(solver.counters().min_j, expected, max_relative = 1e-14);
+    }
+    assert!(least[2] < least[1] - 0.02 && least[2] < least[3] - 0.02, "{least:?}");
+}
+
+/// A periodic layer on a fixed bottom starts in the stress S0, with F = I. Let G be its shear under
+/// the full load: the traction of the top is `P e_y` of F = (1, G; 0, 1), with
+/// `P = mu (F - F^-T) + F S0`. In load step k of N, this traction has the share k/N and the dead
+/// forces of S0 have the share 1 - k/N. The balance `(mu + Syy) g + Sxy` along x is linear in the
+/// shear g, so g = G k/N. The rows of particles remain evenly spaced in the sheared layer.
+#[test]
+fn layer_under_initial_stress_shears_in_proportion_to_the_load() {
+    let (young, poisson, shear, steps) = (100.0, 0.3, 0.6, 3);
+    let (mu, s0) = (young / 2.6, Matrix::<2>::new(12.0, 7.0, 7.0, -5.0));
+    let (h, kernel) = (0.5, kernel::<2>(BasisName::Linear));
+    let grid = kernel.grid(Vector::<2>::zeros(), h, [4, 2], [true, false]);
+    let block = Block { from: Vector::zeros(), to: Vector::<2>::new(2.0, 1.0), density: 1.0 };
+    let mut particles = Particles::fill(&block, h, 2);
+    let traction = Vector::<2>::new((mu + s0[(1, 1)]) * shear + s0[(0, 1)], s0[(1, 1)]);
+    let value = Box::new(move |_: &Vector<2>, _| traction);
+    let traction_at = Traction::at(&particles, 1, Side::High, Placement::Surface, value);
+    let stresses = vec![s0.fixed_resize(0.0); particles.len()];
+    let law = MaterialPlan::NeoHookean { young, poisson }.build();
+    let material = Box::new(Prestressed::new(law, &stresses, &mut particles).unwrap());
+    let boundary: Vec<Box<dyn Boundary<2>>> = vec![Box::new(Fixed::face(&grid, 1, Side::Low))];
+    let (effects, load_steps): (Vec<Box<dyn Effect<2>>>, u64) =
+        (vec![Box::new(traction_at)], steps);
+    let mut layer = QuasiStatic::new(QuasiStaticSetup {
+        grid,
+        particles,
+        kernel,
+        material,
+        effects,
+        boundary,
+        load_steps,
+    })
+    .unwrap();
+    for step in 1..=steps {
+        layer.step(1.0).unwrap();
+        let share = step as f64 / steps as f64;
+        let g = shear * share;
+        let f = Matrix::<2>::new(1.0, g, 0.0, 1.0);
+        let law = Matrix::<2>::new(g * g, g, g, 0.0) * mu;
+        let Particles { x, x0, sigma, def_grad, .. } = layer.particles();
+        for (p, x0) in x0.iter().enumerate() {
+            // A position leaves the grid on one side and enters it on the other.
+            let along = x[p][0] - x0[0] - g * x0[1];
+            assert_relative_eq!(along - 2.0 * libm::round(along / 2.0), 0.0, epsilon = 1e-9);
+            assert_relative_eq!(x[p][1], x0[1], epsilon = 1e-9);
+            assert_relative_eq!(def_grad[p], f, epsilon = 1e-9);
+            assert_relative_eq!(sigma[p], law + f * s0 * f.transpose(), epsilon = 1e-7);
+        }
+        let RunCounters { min_j, .. } = layer.counters();
+        assert_relative_eq!(min_j, 1.0, epsilon = 1e-9);
+        // W = mu g^2/2 + S0 : E with the Green strain E = (0, g/2; g/2, g^2/2), on 2 m2
+        let energy = (mu + s0[(1, 1)]) * g * g + 2.0 * s0[(0, 1)] * g;
+        let total = layer.totals().unwrap().strain_energy.unwrap();
+        assert_relative_eq!(total, energy, max_relative = 1e-8);
+        let reaction = Subject::reaction(&layer, Some((1, false))).unwrap();
+        for axis in 0..2 {
+            let expected = -2.0 * share * traction[axis];
+            assert_relative_eq!(reaction.force[axis], expected, max_relative = 1e-8);
+        }
+    }
 }
 
 /// A full correction of Newton's method would invert the column. The correction of the strain at
