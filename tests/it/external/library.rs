@@ -4,7 +4,7 @@ use super::bar;
 use crate::common::{built_in_suite, valid_suite};
 use mpm_verify::embedded;
 use mpm_verify::external::{Capabilities, LevelProblem, ProblemNeeds, SolverFactory};
-use mpm_verify::study::{Runner, lacking, level_problem, under};
+use mpm_verify::study::{Runner, lacking, under};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::{CaseOutcome, CaseResult};
@@ -117,28 +117,6 @@ fn a_solver_that_fails_in_its_setup_fails_the_case() {
         let found = Runner::over(&suite, Extent::Usual).judging(&Failing).case(0, &|| ());
         assert!(!found.passed(), "{name}: {} {}", found.verdict, found.reason);
         assert!(found.unmet.iter().any(|unmet| unmet.text.contains("out of memory")), "{name}");
-    }
-}
-
-/// A force at fixed points must have the same bits as the force at one point after another.
-#[test]
-fn a_placed_body_force_is_the_body_force() {
-    for name in ["mms-axis-aligned-2d", "geostatic-slope", "falling-block"] {
-        let suite = built_in_suite(name);
-        let plan = suite.convergence().expect("a study of an order");
-        let (case, level) = (&plan.cases[0], plan.refine.levels[0]);
-        let problem = level_problem(name, plan, case, level).expect("a problem");
-        let force = problem.body_force.expect("a body force");
-        let bodies: Vec<usize> = problem.particles.body.iter().map(|body| *body as usize).collect();
-        let labels = problem.particles.reference_position.chunks_exact(problem.dimension);
-        let labels: Vec<&[f64]> = labels.collect();
-        let mut placed = force.at_places(&bodies, &labels);
-        for t in [0.0, 0.3 * problem.until, problem.until] {
-            let mut found = vec![[f64::NAN; 3]; labels.len()];
-            placed(t, &mut found);
-            let each = bodies.iter().zip(&labels).map(|(body, label)| force.at(*body, label, t));
-            assert_eq!(found, each.collect::<Vec<_>>(), "{name} at {t} s");
-        }
     }
 }
 

@@ -6,6 +6,7 @@ mod doctor;
 #[cfg(unix)]
 mod gate;
 mod gradient;
+mod handover;
 mod library;
 #[cfg(unix)]
 pub(crate) mod misbehaving;

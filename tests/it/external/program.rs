@@ -176,49 +176,6 @@ fn unknown_columns_of_a_state_are_ignored() {
     assert!(found.out.contains("converging      2.00 [2.00, 2.00]"), "{}", found.out);
 }
 
-/// A solver that returns the stress of uniform compression, with its component out of the plane.
-#[test]
-fn mean_stress_in_a_plane_is_computed_from_two_columns() {
-    let stress = |moduli: f64| moduli * libm::log(0.98) / 0.98;
-    let (along, across) = (stress(10.5e3 / 0.52), stress(4.5e3 / 0.52));
-    let solver = format!(
-        r#"
-read -r m; echo '{{"type":"hello","protocol":2,"name":"odd","version":"1","capabilities":{{"dimensions":[2],"laws":["hencky"],"conditions":["roller","velocity"],"columns":["stress","COLUMN"]}}}}'
-read -r problem
-case "$problem" in *'"bye"'*) exit 0;; esac
-echo '{{"type":"ready"}}'
-while read -r m; do case "$m" in *'"bye"'*) exit 0;; esac
-printf '%s' "$problem" | awk '{{
-    x = substr($0, index($0, "\"reference_position\":[") + 22)
-    n = split(substr(x, 1, index(x, "]") - 1), X, ",")/2
-    for (p = 1; p <= n; p++) {{
-        c = p > 1 ? "," : ""; u = u c "0,0"; s = s c "{across:e},0,0,{along:e}"; z = z c "{across:e}"
-    }}
-    printf "{{\"type\":\"state\",\"columns\":{{\"displacement\":[%s],\"velocity\":[%s],\"stress\":[%s],\"stress_across\":[%s]}}}}\n", u, u, s, z
-}}'
-done
-"#
-    );
-    let oedometer = "suite: oedometer\ntitle: t\nsource: s\nscene:\n  dimension: 2\n  \
-        body: {box: {from: [0, 0], to: [1, 1]}}\n  \
-        material: {hencky: {young: 1.5e4, poisson: 0.3, density: 1}}\n  \
-        boundary: {left: roller, right: roller, bottom: roller, top: {velocity: [0, -0.02]}}\n  \
-        initial_velocity: [0, \"-0.02*Y\"]\nexact:\n  equation: hencky\n  \
-        displacement: [0, \"-0.02*t*Y\"]\nrun: {until: 1, dt: 0.1, instants: 1}\n\
-        refine: {cells: [1, 2], ppc: 4}\njudge: {of: mean_stress}\nmethods:\n  \
-        - mpm: {basis: linear, transfer: flip, scheme: usl}\nexpect:\n  - error_below: 1\n    \
-        because: b\nany_method: {error_below: 1e-11, because: b}\n";
-    let folder = Folder::with("oedometer.yaml", oedometer);
-    let run = |column: &str| {
-        folder.write("solver.sh", solver.replace("COLUMN", column));
-        folder.call(&["run", "oedometer.yaml", "--gate", "--solver", SOLVER])
-    };
-    let found = run("stress_across");
-    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
-    let found = run("temperature");
-    assert!(flat(&found.out).contains("columns: stress_across"), "{}", found.out);
-}
-
 #[test]
 fn a_program_is_diagnosed_without_changes_of_its_method() {
     let found = folder_of("h").call(&["diagnose", "bar.yaml", "--solver", SOLVER]);

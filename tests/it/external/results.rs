@@ -180,10 +180,58 @@ fn problem_does_not_replace_other_files() {
         folder.accepted(&["problem", "bar.yaml", "--all", "levels", "--format", "json"]);
     }
     assert_eq!(folder.files("levels"), ["1.json", "2.json", "README.md", "results"]);
-    let line = "- 2.json: 4 particles; grid of 5 cells of 0.5 m, lowest corner (0) m;";
-    let command = "mpm-verify judge bar.yaml --from levels/results --gate\n";
-    assert_contains(
-        &folder.read("levels/README.md"),
-        &[line, "after steps 1, 2, at t = 0.001, 0.002 s", "results: t, X, u_x\n", command],
+}
+
+#[test]
+fn readme_describes_the_problem_its_levels_and_the_results() {
+    let suite = super::handover::suite(2)
+        .replace("ppc: 4}", "ppc: 4, full: [8]}")
+        .replace("methods:", "judge: {of: deviatoric_stress}\nmethods:");
+    let folder = Folder::with("body.yaml", suite);
+    folder.accepted(&["problem", "body.yaml", "--all", "all files", "--full"]);
+    let readme = folder.read("all files/README.md");
+    let motion =
+        |a: &str| format!("{a}*sin(pi*(X - 0.25)/1)*sin(pi*(Y - -0.5)/1.5)*(1 + 2*t + 3*t^2)");
+    let level = |cells: u64, h: &str| {
+        let (along, count) = (3 * cells / 2, 6 * cells * cells);
+        format!(
+            "- {cells}.csv: {count} particles; grid of {cells} x {along} cells of {h} m, lowest \
+             corner (0.25, -0.5) m; 6 steps of 0.0029999999999999996 s; results after steps 2, 4, \
+             6, at t = 0.005999999999999999, 0.011999999999999999, 0.018 s\n"
+        )
+    };
+    let expected = format!(
+        "## Problem\n\n\
+         - body: (0.25, -0.5) to (1.25, 1) m, density 2 + X + 0.5*X*Y\n\
+         - material: neo hookean, E = 30 Pa, nu = 0.3\n\
+         - left: fixed\n- right: fixed\n- bottom: fixed\n- top: fixed\n\
+         - gravity: (5*t, -9.81) [m/s2]\n\
+         - initial stress: S0 with xx = 0.3 + X, yy = -0.4, xy = 0.2*Y [Pa], and P includes the \
+         term F S0\n\
+         - motion: {}, {}\n\
+         - body force: manufactured, b = u_tt - Div P / rho0\n\
+         - equation: neo-Hookean, rho0 u_tt = Div P + rho0 b, P = lambda ln(J) F^-T + mu (F - F^-T)\n\
+         - amplitude: largest |u| 1.037e-1 m, largest |grad u| 3.258e-1\n\
+         - dt: 0.003 s, rounded to whole steps\n\
+         - instants: 3\n\
+         - particles: 4 per cell, equally spaced\n\
+         - further levels: 8 cells, with the option --full\n\
+         - judged: rms error of the deviatoric stress\n\
+         - crossing levels: counted\n\
+         - material in SI units: neo_hookean, density = 3.875, young = 30, poisson = 0.3\n\n\
+         ## Levels\n\n{}{}{}{}\n\
+         Required columns of the results: t, X, Y, u_x, u_y, stress_xx, stress_xy, stress_yx, \
+         stress_yy, stress_zz\n",
+        motion("0.1"),
+        motion("-0.06"),
+        level(2, "0.5"),
+        level(4, "0.25"),
+        level(6, "0.16666666666666666"),
+        level(8, "0.125"),
     );
+    let (_, described) = readme.split_once("\n\n\n\n").expect("a heading and no text");
+    let (described, results) = described.split_once("\n## Results").expect("results");
+    assert_eq!(described, expected);
+    let command = "\n    mpm-verify judge body.yaml --from 'all files/results' --gate --full\n";
+    assert_contains(results, &[command]);
 }

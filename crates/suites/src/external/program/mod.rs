@@ -9,6 +9,8 @@ mod results;
 mod schema;
 mod solver;
 mod subject;
+#[cfg(test)]
+mod tests;
 
 pub use connection::ProgramLimits;
 pub use error::ProgramError;

@@ -61,10 +61,10 @@ pub struct ResultFolder {
 }
 
 #[derive(Debug)]
-struct LevelResults {
+pub(super) struct LevelResults {
     problem: Value,
     points: Option<Points>,
-    states: Vec<State>,
+    pub(super) states: Vec<State>,
 }
 
 impl ResultFolder {
@@ -318,7 +318,7 @@ impl<'a> ResultTable<'a> {
 }
 
 /// Reads the table `text` of a level. `all` are the levels of the suite.
-fn read_level(
+pub(super) fn read_level(
     file: &str,
     text: &str,
     level: &ResultLevel,

@@ -86,17 +86,7 @@ impl SolverProgram {
         }
         connection.expect_up_to(longest_answer(problem));
         let binary = hello.capabilities.known.binary;
-        let mut message = Outgoing::new("problem", json!(problem), binary);
-        let forced = match (&problem.constant_body_force, &problem.body_force) {
-            (Some(_), _) => "constant",
-            (None, Some(_)) => "asked",
-            (None, None) => "none",
-        };
-        message.set("body_force", json!(forced));
-        for (name, column) in problem.particles.columns() {
-            message.column("particles", name, column);
-        }
-        connection.send(message);
+        connection.send(problem_message(problem, binary));
         let mut inquiry = Inquiry::new(problem, hello.protocol, binary);
         inquiry.allow(SETUP_QUESTIONS);
         match conclude(&mut connection, &mut inquiry)? {
@@ -153,6 +143,20 @@ struct Started {
     points: Option<Points>,
     /// Block of bytes after the `ready` answer, with the columns of `points`.
     bytes: Vec<u8>,
+}
+
+pub(super) fn problem_message(problem: &LevelProblem, binary: bool) -> Outgoing {
+    let mut message = Outgoing::new("problem", json!(problem), binary);
+    let forced = match (&problem.constant_body_force, &problem.body_force) {
+        (Some(_), _) => "constant",
+        (None, Some(_)) => "asked",
+        (None, None) => "none",
+    };
+    message.set("body_force", json!(forced));
+    for (name, column) in problem.particles.columns() {
+        message.column("particles", name, column);
+    }
+    message
 }
 
 /// Returns the hash of the command, of the files among its arguments, and of the hello message. If
