@@ -7,6 +7,7 @@ use mpm_verify::prelude::*;
 use mpm_verify::study::lacking;
 use mpm_verify::verify::StabilityRow;
 use rstest::rstest;
+use std::sync::Mutex;
 
 /// A bar whose particles move through cells and start with random velocities and stresses. It uses
 /// linear functions, FLIP and MUSL.
@@ -156,6 +157,74 @@ fn solver_without_stress_or_totals_is_not_applicable() {
         ("not applicable", "not applicable")
     );
     assert!(outcome.reason.contains("sends no totals"), "{}", outcome.reason);
+}
+
+/// A solver that keeps the problems of all runs, and runs none of them.
+#[derive(Default)]
+struct Recorder(Mutex<Vec<LevelProblem>>);
+
+impl SolverFactory for Recorder {
+    fn name(&self) -> &'static str {
+        "recorder"
+    }
+
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+        self.0.lock().expect("a list").push(problem);
+        Err("it runs nothing".into())
+    }
+}
+
+/// A plate starts with F = (1.2, -0.3; 0.4, 1.05), with and without random numbers.
+#[rstest]
+fn problem_of_a_trial_has_its_start_and_its_steps(#[values("", ", perturb: 1e-3")] perturb: &str) {
+    let is_random = !perturb.is_empty();
+    let size = if is_random { 1e-3 } else { 0.0 };
+    let text = MOVING_BAR
+        .replace("dimension: 1", "dimension: 2")
+        .replace("{from: [0], to: [4]}", "{from: [0, 1], to: [4, 3]}")
+        .replace("linear_elastic: {young: E, poisson: 0,", "neo_hookean: {young: E, poisson: 0.25,")
+        .replace(
+            "  boundary: {left: fixed}\n",
+            "  initial_displacement: [\"0.2*X - 0.3*Y\", \"0.4*X + 0.05*Y\"]\n  \
+             initial_velocity: [3, X]\n",
+        )
+        .replace("ppc: 2", "ppc: 4")
+        .replace(", perturb: 1e-9", perturb)
+        .replace("[0.2, 0.5, 3]", "[0.5]");
+    let solver = Recorder::default();
+    judged(&text, &solver);
+    let problems = solver.0.into_inner().expect("a list");
+    let [problem] = &problems[..] else { panic!("{} problems", problems.len()) };
+    // 0.5 h/c with c = sqrt(100/4)
+    let steps = (problem.steps, problem.dt, problem.until, problem.load_steps);
+    assert_eq!(steps, (100, 0.1, 10.0, None));
+    assert!(problem.instants.is_sorted() && problem.instants.last() == Some(&100));
+    let start = &problem.particles;
+    let (f, j) = ([1.2, -0.3, 0.4, 1.05], 1.2 * 1.05 + 0.3 * 0.4);
+    // The velocities have the size of the wave speed, 5.48 m/s.
+    let near = |found: f64, expected: f64, scale: f64| {
+        let error = (found - expected).abs();
+        assert!(error <= size * scale + 1e-13, "{found}, not {expected}");
+        assert_eq!(error > 1e-12, is_random, "{found}");
+    };
+    for (p, label) in start.reference_position.chunks_exact(2).enumerate() {
+        for i in 0..2 {
+            let x = f[2 * i] * label[0] + f[2 * i + 1] * label[1];
+            assert!((start.position[2 * p + i] - x).abs() <= 4.0 * size + 1e-13);
+            near(start.velocity[2 * p + i], [3.0, label[0]][i], 5.5);
+        }
+        let gradients = &start.deformation_gradient[4 * p..4 * p + 4];
+        gradients.iter().zip(f).for_each(|(found, f)| near(*found, f, 2.0));
+        assert_eq!((start.mass[p], start.reference_volume[p]), (1.0, 0.25));
+        assert!((start.volume[p] - 0.25 * j).abs() <= size + 1e-13);
+    }
+    let fields = problem.fields.as_ref().expect("fields");
+    let at = FieldPlaces::new(&[1.0, 2.0], &[0]);
+    let values = |of| fields.values(of, 0.0, &at).ok();
+    assert_eq!(values(FieldName::Velocity), (!is_random).then(|| vec![3.0, 1.0]));
+    assert_eq!(values(FieldName::DeformationGradient), (!is_random).then(|| f.to_vec()));
+    assert_eq!(values(FieldName::Stress).is_none(), is_random);
+    assert!(values(FieldName::Displacement).is_some());
 }
 
 #[rstest]
