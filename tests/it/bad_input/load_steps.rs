@@ -98,6 +98,11 @@ fn a_method_has_the_keys_of_its_scheme(#[case] edits: Edits<'_>, #[case] words: 
 #[case::a_pressure(
     &[(LOAD, "    - gravity: [\"-g\"]\n    - pressure: ▸{on: right, value: 1}")], &["it is a follower load"]
 )]
+#[case::a_prescribed_motion(
+    &[("  loads:", "  sets: {tip: {box: {from: [40], to: [50]}}}\n  loads:\n    - velocity: ▸{on: tip, value: [1]}")],
+    &["a velocity belongs to a motion in time"]
+)]
+#[case::a_moving_wall(&[("left: fixed", "▸left: {velocity: [1]}")], &["the left face", "which load steps do not support"])]
 #[case::a_free_body(
     &[("boundary: {left: fixed}", "boundary: {}"), ("  body:", "  ▸body:")], &["nothing holds the body along X"]
 )]

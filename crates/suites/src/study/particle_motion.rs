@@ -157,4 +157,30 @@ mod tests {
         assert_eq!(ParticleMotion { dimension: 3, ..motion(1.25) }.to_svg(""), None);
         assert_eq!(ParticleMotion::default().to_svg(""), None);
     }
+    /// The extent is from (1, 2) to (3, 6) m, and y points up: 200 px/m and a radius of 5 px.
+    #[test]
+    fn drawing_has_the_axes_and_cells_of_the_plane() {
+        let mut motion = ParticleMotion::default();
+        let grid = |h| BodyFields { origin: vec![0.5, 1.5], h, ..BodyFields::default() };
+        for positions in [[1.0, 2.0, 3.0, 3.0], [1.25, 6.0, 1.5, 2.5]] {
+            motion.add(2, &positions, &[grid(0.0), grid(2.0)]);
+        }
+        let svg = motion.to_svg("").expect("a picture");
+        for part in [
+            "viewBox=\"0 0 420.0 820.0\"",
+            "\"cx\" values=\"10.00;60.00\"",
+            "\"cy\" values=\"810.00;10.00\"",
+            "\"cx\" values=\"410.00;110.00\"",
+            "\"cy\" values=\"610.00;710.00\"",
+            "<line x1=\"-90.0\" y1=\"810.0\" x2=\"-90.0\" y2=\"10.0\"",
+            "<line x1=\"310.0\" y1=\"810.0\" x2=\"310.0\" y2=\"10.0\"",
+            "<line x1=\"10.0\" y1=\"910.0\" x2=\"410.0\" y2=\"910.0\"",
+            "<line x1=\"10.0\" y1=\"510.0\" x2=\"410.0\" y2=\"510.0\"",
+        ] {
+            assert_eq!(svg.matches(part).count(), 1, "{part} in\n{svg}");
+        }
+        assert_eq!(svg.matches("<line ").count(), 3 + 4);
+        let fills: Vec<&str> = svg.split("\"fill\" values=\"").skip(1).map(|s| &s[..15]).collect();
+        assert_eq!(fills, ["#0072b2;#d55e00", "#0072b2;#d55e00"]);
+    }
 }

@@ -123,3 +123,47 @@ impl ParticleTable {
 pub(super) fn rows<const D: usize>(tensors: &[Matrix<D>]) -> Vec<f64> {
     tensors.iter().flat_map(|tensor| tensor.transpose().data.0).flatten().collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// F = (1.5, -0.5; 1, 1) has the determinant 2 and the inverse (0.5, 0.25; -0.5, 0.75).
+    #[test]
+    fn deformed_and_rotated_particles_have_their_state_in_rows() {
+        let motion = |x: &[f64]| StateInput {
+            u: [x[0], 10.0 * x[1], 7.0],
+            grad: [[0.5, -0.5, 7.0], [1.0, 0.0, 7.0], [7.0; 3]],
+            velocity: [3.0 * x[0], 4.0 * x[1], 7.0],
+            grad_rate: [[2.0, 4.0, 7.0], [6.0, 8.0, 7.0], [7.0; 3]],
+        };
+        let mut particles = Particles::<2>::cubes([2, 1]);
+        particles.mass = vec![3.0, 5.0];
+        particles.sigma[1] = Matrix::<2>::new(1.0, 2.0, 3.0, 4.0);
+        let mut state = InitialState { motion: Box::new(motion), is_displaced: true, stress: None };
+        state.put(&mut particles);
+        // grad_rate F^-1
+        let expected = Matrix::<2>::new(-1.0, 3.5, -1.0, 7.5);
+        assert_relative_eq!(particles.grad_v[1], expected, epsilon = 1e-14);
+        let table = ParticleTable::new(particles.clone());
+        let expected = ParticleTable {
+            reference_position: vec![0.5, 0.5, 1.5, 0.5],
+            position: vec![1.0, 5.5, 3.0, 5.5],
+            velocity: vec![1.5, 2.0, 4.5, 2.0],
+            mass: vec![3.0, 5.0],
+            reference_volume: vec![1.0, 1.0],
+            volume: vec![2.0, 2.0],
+            deformation_gradient: [1.5, -0.5, 1.0, 1.0].repeat(2),
+            stress: vec![0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0],
+            hoop_stress: Vec::new(),
+        };
+        assert_eq!(table, expected);
+        // Without a displacement, only the velocity is set.
+        state.is_displaced = false;
+        let mut undeformed = Particles::<2>::cubes([2, 1]);
+        state.put(&mut undeformed);
+        assert_eq!((&undeformed.x, &undeformed.v), (&undeformed.x0, &particles.v));
+        assert!(undeformed.def_grad.is_empty());
+    }
+}
