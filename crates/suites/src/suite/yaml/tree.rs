@@ -8,7 +8,7 @@
 
 use super::syntax::{InvalidText, is_indented_by_tab, tab, too_deep, unneeded};
 use super::{Diagnostic, MAX_ENTRIES, MAX_NESTING};
-use saphyr_parser::{Event, Parser, ScalarStyle, ScanError};
+use saphyr_parser::{Event, Parser, ScalarStyle, ScanError, Span};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -68,6 +68,15 @@ impl MapNode {
 
 /// Parses the positions of a text: all scalars in order, and the value of the file.
 pub(crate) fn tree(name: &str, text: &str) -> Result<(Vec<Scalar>, TreeNode), Diagnostic> {
+    build(name, text, Parser::new_from_str(text))
+}
+
+/// Builds the tree from the events of a parser. Takes no event after an error.
+pub(super) fn build<'t>(
+    name: &str,
+    text: &'t str,
+    events: impl Iterator<Item = Result<(Event<'t>, Span), ScanError>>,
+) -> Result<(Vec<Scalar>, TreeNode), Diagnostic> {
     let offsets = if text.is_ascii() {
         Vec::new()
     } else {
@@ -87,7 +96,7 @@ pub(crate) fn tree(name: &str, text: &str) -> Result<(Vec<Scalar>, TreeNode), Di
         root: TreeNode::Empty(text.len()),
     };
     let mut documents = 0;
-    for event in Parser::new_from_str(text) {
+    for event in events {
         let (event, span) = event.map_err(|error| builder.not_yaml(&error))?;
         let range = builder.offset(span.start.index())..builder.offset(span.end.index());
         documents += usize::from(matches!(event, Event::DocumentStart(_)));
