@@ -1,15 +1,15 @@
-//! Suites that would need too much memory or time are refused at once, before anything is
-//! allocated.
+//! Suites that would need too much memory or time are refused before anything is allocated.
 
 use super::samples::{BAR, CUBE, PLATE, SWEPT};
 use super::{Edits, refused};
+use allocation_counter::measure;
 use rstest::rstest;
-use std::time::{Duration, Instant};
 
-fn refused_at_once(sound: &str, edits: Edits<'_>, words: &[&str]) {
-    let start = Instant::now();
-    refused(sound, edits, words);
-    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+/// Asserts the error, and that the heap use stays far below that of a thousand million cases or
+/// fifty million nodes.
+fn refused_unallocated(sound: &str, edits: Edits<'_>, words: &[&str]) {
+    let bytes = measure(|| refused(sound, edits, words)).bytes_max;
+    assert!(bytes < 20_000_000, "{bytes} bytes");
 }
 
 #[rstest]
@@ -34,7 +34,7 @@ fn refused_at_once(sound: &str, edits: Edits<'_>, words: &[&str]) {
     &["the box is 1e300 m long", "expected a length from 1e-30 to 1e30"]
 )]
 fn a_level_with(#[case] sound: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
-    refused_at_once(sound, edits, words);
+    refused_unallocated(sound, edits, words);
 }
 
 /// Creates a list that contains `word` this number of times.
@@ -45,7 +45,7 @@ fn list(word: &str, times: usize) -> String {
 #[test]
 fn more_levels_than_a_list_may_have() {
     let levels = format!("▸{}", list("9", 1001));
-    refused_at_once(BAR, &[("[6, 12]", &levels)], &["this list has more than 1000 entries"]);
+    refused_unallocated(BAR, &[("[6, 12]", &levels)], &["this list has more than 1000 entries"]);
 }
 
 #[test]
@@ -75,5 +75,5 @@ fn lists_whose_product_is_a_thousand_million_cases(
     let right = format!("- mpm: {{basis: linear, transfer: {transfer}}}");
     let most = format!("expected at most {most} in a suite");
     let words = ["these lists give 1000000000 cases", &most];
-    refused_at_once(suite, &[(&right, &method)], &words);
+    refused_unallocated(suite, &[(&right, &method)], &words);
 }
