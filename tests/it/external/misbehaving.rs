@@ -77,13 +77,9 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
     "while :; do echo '{\"type\":\"body_force\",\"t\":0}'; read -r m; done",
     "requested values 1001 times, more than the limit"
 )]
-#[case::silence("sleep 99", "did not answer within 0.3 s")]
-#[case::a_closed_pipe("exec >&-; sleep 99", "closed its output but did not end")]
 #[case::its_own_word("echo '{\"type\":\"failed\",\"reason\":\"all is lost\"}'", "all is lost")]
 fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words: &str) {
-    // Tests that wait for the whole timeout use a short one.
-    let patience = if then.ends_with("sleep 99") { "0.3s" } else { "1s" };
-    let (code, said) = run(&script(then), &["--solver-timeout", patience]);
+    let (code, said) = run(&script(then), &[]);
     assert!(code == SOUND && said.contains("explored  short-bar::odd  failed"), "{said}");
     let flat = flat(&said);
     assert!(flat.contains(words), "no `{words}` in\n{said}");
@@ -96,17 +92,6 @@ fn more_than_10_000_requests_before_ready_fail() {
     assert!(flat(&said).contains("requested values 10001 times"), "{said}");
 }
 
-/// A process that reads nothing is detected by the response timeout, for any amount of data in its
-/// pipe.
-#[test]
-fn a_process_that_reads_nothing_is_silent() {
-    let deaf = format!(
-        "read -r m; echo '{HELLO}'; read -r m; case \"$m\" in *bye*) ;; *) sleep 99;; esac"
-    );
-    let (_, said) = run(&deaf, &["--solver-timeout", "0.3s"]);
-    assert!(said.contains("did not answer within 0.3 s"), "{said}");
-}
-
 #[test]
 fn a_gate_fails_with_its_solver() {
     assert_eq!(run(&script("exit 1"), &["--gate"]).0, FAILED);
@@ -116,7 +101,7 @@ fn a_gate_fails_with_its_solver() {
 #[test]
 fn child_processes_of_a_solver_are_killed() {
     let folder = Folder::with("bar.yaml", bar());
-    folder.write("solver.sh", script("sleep 98 & echo $! >> pids; exit 1"));
+    folder.write("solver.sh", script("sleep 999 & echo $! >> pids; exit 1"));
     folder.call(&["run", "bar.yaml", "--solver", "sh solver.sh"]);
     let pids = std::fs::read_to_string(folder.path().join("pids")).expect("pids");
     assert_eq!(pids.lines().count(), 4, "one for each level");
@@ -125,9 +110,13 @@ fn child_processes_of_a_solver_are_killed() {
             let status = std::fs::read_to_string(format!("/proc/{pid}/stat"));
             status.is_ok_and(|status| !status.contains(") Z "))
         };
-        let patient = (0..100).any(|_| {
-            std::thread::sleep(std::time::Duration::from_millis(10));
-            !alive()
+        // The system may end a killed process late.
+        let patient = (0..6000).any(|_| {
+            let is_dead = !alive();
+            if !is_dead {
+                std::thread::sleep(std::time::Duration::from_millis(10));
+            }
+            is_dead
         });
         assert!(patient, "process {pid} goes on");
     }
@@ -140,6 +129,7 @@ fn child_processes_of_a_solver_are_killed() {
     "program `/no/such/program` does not start: No such file"
 )]
 #[case::no_hello("true", "ended without an answer (exit status 0)")]
+#[case::silence("sleep 99", "did not answer within 0.05 s")]
 #[case::an_older_version(
     "sh -c 'read m; echo \"{\\\"type\\\":\\\"hello\\\",\\\"protocol\\\":7,\\\"name\\\":\\\"x\\\"}\"'",
     "uses version 7 of the protocol; expected version 1 or 2"
@@ -150,7 +140,10 @@ fn child_processes_of_a_solver_are_killed() {
 )]
 fn a_command_that_cannot_be_greeted_is_bad_input(#[case] command: &str, #[case] words: &str) {
     let folder = Folder::with("bar.yaml", bar());
-    let found = folder.call(&["run", "bar.yaml", "--solver", command]).ended(BAD_INPUT);
+    // Only the silent program waits for the timeout, because nothing else happens within it.
+    let timeout = if command == "sleep 99" { "50ms" } else { "60s" };
+    let arguments = ["run", "bar.yaml", "--solver", command, "--solver-timeout", timeout];
+    let found = folder.call(&arguments).ended(BAD_INPUT);
     assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
 }
 

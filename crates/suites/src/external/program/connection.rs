@@ -226,3 +226,37 @@ fn shown(status: ExitStatus) -> String {
     }
     status.code().map_or("no status".to_owned(), |code| format!("exit status {code}"))
 }
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    /// Starts a script in a shell with this response timeout (s).
+    fn shell(script: &str, silence: f64) -> Connection {
+        let command = ["sh", "-c", script].map(str::to_owned);
+        let silence = Duration::from_secs_f64(silence);
+        let limits = ProgramLimits { silence, ..ProgramLimits::default() };
+        Connection::start(&command, limits).expect("a shell")
+    }
+
+    /// The message is longer than the pipe, so that its writer blocks.
+    #[rstest]
+    #[case::silence("exec sleep 99", 0.05, 0, "did not answer within 0.05 s")]
+    #[case::nothing_read("exec sleep 99", 0.05, 1_000_000, "did not answer within 0.05 s")]
+    #[case::a_closed_pipe("exec >&-; exec sleep 99", 60.0, 0, "closed its output but did not end")]
+    fn process_without_an_answer_fails(
+        #[case] script: &str,
+        #[case] silence: f64,
+        #[case] length: usize,
+        #[case] message: &str,
+    ) {
+        let mut connection = shell(script, silence);
+        connection.send(Outgoing::new(
+            "problem",
+            serde_json::json!({"x": "x".repeat(length)}),
+            false,
+        ));
+        assert_eq!(connection.answer().expect_err("no answer").to_string(), message);
+    }
+}
