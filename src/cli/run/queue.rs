@@ -32,6 +32,14 @@ struct QueueState {
     is_blocked: bool,
 }
 
+impl QueueState {
+    /// Whether the next of `count` jobs may start, or a thread may learn that none is left.
+    fn may_start(&self, count: usize, waits: impl Fn(usize) -> bool) -> bool {
+        let is_early = self.running > 0 && self.next < count && waits(self.next);
+        !self.is_blocked && !is_early
+    }
+}
+
 impl Queue {
     fn state(&self) -> MutexGuard<'_, QueueState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
@@ -44,10 +52,7 @@ impl Queue {
 
     /// Waits until the next of `count` jobs may start, and returns its number.
     fn start(&self, count: usize, waits: impl Fn(usize) -> bool) -> Option<usize> {
-        let mut state = self.wait_while(|state| {
-            let is_early = state.running > 0 && state.next < count && waits(state.next);
-            state.is_blocked || is_early
-        });
+        let mut state = self.wait_while(|state| !state.may_start(count, &waits));
         let number = state.next;
         if number >= count {
             return None;
@@ -126,8 +131,6 @@ mod tests {
     use super::*;
     use rstest::rstest;
     use std::sync::Barrier;
-    use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-    use std::time::Duration;
 
     fn outputs(count: usize, threads: usize, run: impl Fn(usize) + Sync) -> String {
         let mut text = String::new();
@@ -179,32 +182,33 @@ mod tests {
         in_order(1, 1, |_| false, run, take);
     }
 
+    /// Job 2 of 4 waits for all earlier jobs.
     #[test]
-    fn a_job_starts_when_the_job_before_it_allows() {
-        let is_allowed = AtomicBool::new(false);
-        let run = |job: &mut Job<'_, ()>| match job.number {
-            0 => {
-                thread::sleep(Duration::from_millis(20));
-                is_allowed.store(true, Ordering::SeqCst);
-                job.let_next_start();
-            }
-            _ => assert!(is_allowed.load(Ordering::SeqCst)),
+    fn job_starts_when_the_earlier_jobs_allow() {
+        let queue = Queue::default();
+        let waits = |number| number == 2;
+        let (send, _received) = mpsc::channel::<(usize, JobOutput<()>)>();
+        let start = || {
+            let number = queue.start(4, waits)?;
+            Some(Job { number, send: send.clone(), queue: &queue, blocks_next: true })
         };
-        in_order(2, 2, |_| false, run, |_| ());
-    }
-
-    #[test]
-    fn a_waiting_job_starts_after_all_earlier_jobs_have_ended() {
-        let ended = AtomicUsize::new(0);
-        let run = |job: &mut Job<'_, ()>| {
-            job.let_next_start();
-            if job.number == 2 {
-                assert_eq!(ended.load(Ordering::SeqCst), 2);
-            }
-            thread::sleep(Duration::from_millis(20));
-            ended.fetch_add(1, Ordering::SeqCst);
-        };
-        in_order(4, 4, |number| number == 2, run, |_| ());
-        assert_eq!(ended.load(Ordering::SeqCst), 4);
+        let may_start = || queue.state().may_start(4, waits);
+        let number = |job: &Option<Job<'_, ()>>| job.as_ref().map(|job| job.number);
+        let mut jobs: Vec<_> = vec![start()];
+        assert!(!may_start(), "job 0 does not allow it");
+        jobs[0].as_mut().expect("job 0").let_next_start();
+        assert!(may_start());
+        jobs.push(start());
+        jobs[1] = None;
+        assert!(!may_start(), "job 0 runs");
+        jobs[0] = None;
+        assert!(may_start());
+        jobs.push(start());
+        jobs[2] = None;
+        jobs.push(start());
+        assert_eq!(jobs.iter().map(number).collect::<Vec<_>>(), [None, None, None, Some(3)]);
+        assert!(!may_start(), "a thread that waits must not end before job 3 allows it");
+        jobs[3] = None;
+        assert!(start().is_none());
     }
 }
