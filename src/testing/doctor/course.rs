@@ -113,7 +113,7 @@ impl Course {
 }
 
 /// Returns a vector with these components; missing components are zero.
-fn vector(components: &[f64]) -> Vector3<f64> {
+pub(super) fn vector(components: &[f64]) -> Vector3<f64> {
     Vector3::from_fn(|i, _| components.get(i).copied().unwrap_or_default())
 }
 

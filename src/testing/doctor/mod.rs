@@ -20,6 +20,8 @@ mod patient;
 mod prelude;
 mod rules;
 mod scene;
+#[cfg(test)]
+mod tests;
 
 pub use finding::{
     DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding,
@@ -182,19 +184,4 @@ fn required(name: &str, solver: &dyn SolverFactory) -> Option<Vec<String>> {
     let can_run =
         solver.lacks(&needs).is_empty() && !under(&suite, solver, false)?.case_names().is_empty();
     can_run.then(|| Capabilities::default().lacking(&needs))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::external::everything;
-
-    #[test]
-    fn covered_capabilities_exist() {
-        let known = everything().entries();
-        for one in ALL {
-            let unknown = one.covers.iter().find(|name| !known.iter().any(|known| known == *name));
-            assert_eq!(unknown, None, "{}", one.name);
-        }
-    }
 }

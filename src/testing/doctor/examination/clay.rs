@@ -481,6 +481,55 @@ mod tests {
         assert!(found.cause.contains(cause), "{text}");
     }
 
+    /// Ends with the exact stresses for G/K = 0.75, multiplied by factors: of p and of q after
+    /// swelling, of q/p and of pc after compression, and of q/p and of pc after shear.
+    fn ends([p, q, k0, yields, slope, hardens]: [f64; 6]) -> [PathEnd; 3] {
+        let end = |path, compaction: f64, shear, p, q| PathEnd {
+            path,
+            dimension: 2,
+            ratio: 0.75,
+            compaction,
+            shear,
+            p,
+            q,
+        };
+        // The stress with this ratio q/p on the yield surface of size pc = 1.5 exp(eps_p/0.004).
+        let on_surface = |path, compaction: f64, ratio: f64, factor: f64| {
+            let mut p = 1.0;
+            for _ in 0..100 {
+                let plastic = compaction - 0.001 * libm::log(p);
+                let pc = 1.5 * libm::exp(plastic / 0.004);
+                p = libm::sqrt(p * factor * pc / (1.0 + ratio * ratio / 1.44));
+            }
+            end(path, compaction, 0.004, p, ratio * p)
+        };
+        let swelling = libm::exp(-0.511);
+        [
+            end("swelling", -0.000_511, 0.0, p * swelling, q * 1.5 * (p * swelling - 1.0).abs()),
+            on_surface("compression", 0.006, k0 * k0_ratio(0.75), yields),
+            on_surface("shear", 0.0, slope * 1.2, hardens),
+        ]
+    }
+
+    #[rstest]
+    #[case([1.07, 0.93, 0.89, 0.93, 0.96, 0.89], "", "")]
+    #[case([0.93, 1.07, 1.11, 1.07, 1.04, 1.11], "", "")]
+    #[case([1.09, 1.0, 1.0, 1.0, 1.0, 1.0], "clay-swelling-slope", "p/p0 is 0.6539 and")]
+    #[case([1.0, 1.09, 1.0, 1.0, 1.0, 1.0], "clay-shear-modulus", "q/p0 = 0.6002 is expected")]
+    #[case([1.0, 1.0, 1.13, 1.0, 1.0, 1.0], "clay-flow-direction", "on the K0 line")]
+    #[case([1.0, 1.0, 1.0, 1.09, 1.0, 1.0], "clay-hardening", "expected ")]
+    #[case([1.0, 1.0, 1.0, 1.0, 0.94, 1.0], "clay-yield-surface", "q/p is 1.128, expected M = 1.200")]
+    #[case([1.0, 1.0, 1.0, 1.0, 1.0, 0.87], "clay-yield-surface", "shear: in the middle")]
+    fn stress_just_outside_a_tolerance_is_named(
+        #[case] factors: [f64; 6],
+        #[case] name: &str,
+        #[case] figure: &str,
+    ) {
+        let finding = finding(&ends(factors));
+        assert_eq!(finding.as_ref().map_or("", |finding| finding.name), name, "{finding:?}");
+        assert!(finding.is_none_or(|finding| finding.seen.contains(figure)), "no {figure}");
+    }
+
     #[test]
     fn stress_that_is_not_a_number_is_wrong() {
         for path in [0, 1] {

@@ -387,3 +387,63 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     (!(-0.75..=0.75).contains(&forces.late))
         .then(|| SolverFinding::defect(name, force, cause, look_at))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn force_has_its_cause() {
+        let scene = scene((2, "neo_hookean"), PLACEMENTS[0].sheared, PLACEMENTS[0]);
+        let run = scene.built_in("basis: quadratic_bspline, transfer: flip, scheme: usl");
+        let mut course = run.expect("a complete run");
+        course.start(&scene.displacement, &scene.velocity);
+        let forces = |ratio, error, late| {
+            let unit = Vector3::y();
+            Forces { ratio, error, late, unit, first: unit }
+        };
+        let name = |course: &Course, forces: &Forces| {
+            cause(course, &scene, forces).map_or("", |finding| finding.name)
+        };
+        assert_eq!(name(&course, &forces(1.0, 0.119, 0.0)), "");
+        assert_eq!(name(&course, &forces(1.0, 0.121, 0.0)), "force-of-deformed-body");
+        let column = &mut course.states[1].stress;
+        column.iter_mut().skip(1).step_by(4).for_each(|s| *s += 0.3 * scene.young);
+        let finding = cause(&course, &scene, &forces(1.0, 0.2, 0.0)).expect("a finding");
+        assert_eq!(finding.name, COMPONENTS);
+        assert!(finding.seen.ends_with("has other components xy"), "{}", finding.seen);
+        course.states[1].stress.clear();
+        for (ratio, error, late, expected) in [
+            (1.0, 0.119, 0.74, ""),
+            (1.0, 0.119, -0.74, ""),
+            (1.0, 0.121, 0.0, "initial-stress-differs"),
+            (0.121, 0.879, 0.0, "initial-stress-differs"),
+            (0.119, 0.881, f64::NAN, DROPPED),
+            (1.0, 0.0, 0.76, "initial-stress-differs"),
+            (1.0, 0.0, -0.76, "initial-stress-differs"),
+            (1.0, 0.0, 0.86, DROPPED),
+            (1.0, 0.0, 1.14, DROPPED),
+            (1.0, 0.0, 1.16, "initial-stress-differs"),
+            (1.0, f64::NAN, 0.0, "initial-stress-differs"),
+        ] {
+            assert_eq!(
+                name(&course, &forces(ratio, error, late)),
+                expected,
+                "{ratio} {error} {late}"
+            );
+        }
+        // In a sheared body, a wrong xx changes the force along x only, and a wrong xy both.
+        for (first, component) in [
+            ([0.14, 1.0], None),
+            ([0.16, 1.0], Some("xx")),
+            ([0.2, 0.8], Some("xy")),
+            ([0.3, 0.7], Some("xy")),
+            ([0.3, 0.9], Some("several components are")),
+        ] {
+            let first = Vector3::new(first[0], first[1], 0.0);
+            let wrong = Forces { first, ..forces(1.0, 0.2, 0.0) }.wrong_components(&scene);
+            let is_named = |text: &str| text.contains(component.unwrap_or("no"));
+            assert_eq!(wrong.as_deref().map(is_named), component.map(|_| true), "{wrong:?}");
+        }
+    }
+}

@@ -3,21 +3,20 @@
 use super::defect::{Defect, Defect::*};
 use mpm_verify::external::{Capabilities, LevelProblem, ProblemFace, ProblemNeeds, SolverFactory};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 type Vector = [f64; 2];
 
 /// Creates clients with a defect.
 pub(super) struct Clinic {
     pub(super) defect: Defect,
-    runs: AtomicU32,
     /// Whether clients refuse all problems.
     pub(super) is_closed: AtomicBool,
 }
 
 impl Clinic {
     pub(super) fn new(defect: Defect) -> Self {
-        Self { defect, runs: AtomicU32::new(0), is_closed: AtomicBool::new(false) }
+        Self { defect, is_closed: AtomicBool::new(false) }
     }
 }
 
@@ -40,8 +39,7 @@ impl SolverFactory for Clinic {
     }
 
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        let run = self.runs.fetch_add(1, Ordering::Relaxed);
-        Ok(Box::new(Client::new(problem, self.defect, run)))
+        Ok(Box::new(Client::new(problem, self.defect)))
     }
 }
 
@@ -53,8 +51,6 @@ struct Client {
     f: Vec<[f64; 4]>,
     sigma: Vec<[f64; 4]>,
     steps: u64,
-    /// Number of this run among the runs of the factory.
-    run: u32,
     /// Lame's parameters.
     lame: [f64; 2],
     walls: Vec<Wall>,
@@ -77,22 +73,14 @@ fn vectors(column: &[f64]) -> Vec<Vector> {
 }
 
 impl Client {
-    fn new(problem: LevelProblem, defect: Defect, run: u32) -> Self {
+    fn new(problem: LevelProblem, defect: Defect) -> Self {
         let (x, v) = (vectors(&problem.particles.position), vectors(&problem.particles.velocity));
         let n = x.len();
         let stress = if defect == StressAtStart { 0.01 } else { 0.0 };
         let material = &problem.materials[0];
         let (e, nu) = (material.parameter("young"), material.parameter("poisson"));
-        let mut lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
-        let mut mu = e / (2.0 * (1.0 + nu));
-        match defect {
-            PlaneStress => lambda = 2.0 * lambda * mu / (lambda + 2.0 * mu),
-            LameExchanged => (lambda, mu) = (mu, lambda),
-            BulkForLambda => lambda += 2.0 * mu / 3.0,
-            MuTwice => mu *= 2.0,
-            NoVolumeTerm => lambda = 0.0,
-            _ => {}
-        }
+        let lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+        let mu = e / (2.0 * (1.0 + nu));
         let grid = &problem.grid;
         let held = problem.faces.iter().filter(|face| {
             ["fixed", "roller"].contains(&face.condition)
@@ -106,24 +94,17 @@ impl Client {
             holds_all: defect == StickyRollers
                 || face.condition == "fixed" && defect != FixedHoldsNormal,
         };
-        let mut client = Self {
+        Self {
             defect,
             x,
             v,
             f: vec![[1.0, 0.0, 0.0, 1.0]; n],
             sigma: vec![[stress, 0.0, 0.0, stress]; n],
             steps: 0,
-            run,
             lame: [lambda, mu],
             walls: held.map(wall).collect(),
             problem,
-        };
-        if defect == PositionsHalfAStepOn {
-            for (x, v) in client.x.iter_mut().zip(&client.v) {
-                *x = [0, 1].map(|i| x[i] + 0.5 * client.problem.dt * v[i]);
-            }
         }
-        client
     }
 
     /// Returns the cell that contains the position `x`.
@@ -176,11 +157,6 @@ impl Client {
         if let Some(field) = &self.problem.body_force {
             let label = &self.problem.particles.reference_position[2 * p..2 * p + 2];
             let at = if defect == ForceAtPresentPositions { &self.x[p] } else { label };
-            let t = match defect {
-                ForceOfTheStart => 0.0,
-                ForceOfTheEnd => t + self.problem.dt,
-                _ => t,
-            };
             let place = if defect == ForceOfOtherPoints {
                 let q = 7 * p % self.x.len();
                 &self.problem.particles.reference_position[2 * q..2 * q + 2]
@@ -190,13 +166,6 @@ impl Client {
             let value = field.at(0, place, t);
             force = [value[0], value[1]];
         }
-        force = match defect {
-            GravityTwice => force.map(|g| 2.0 * g),
-            GravityUpwards => force.map(|g| -g),
-            GravityIgnored => [0.0; 2],
-            GravityTimesDensity => force.map(|g| g * self.problem.materials[0].density),
-            _ => force,
-        };
         if defect == GravityLeftOn {
             force[1] -= 9.81;
         }
@@ -206,16 +175,12 @@ impl Client {
     /// Updates volume and stress with the velocity gradient `l`.
     fn strain(&mut self, p: usize, l: [f64; 4], dt: f64) {
         let [lambda, mu] = self.lame;
-        let shear = match self.defect {
-            EngineeringShear => l[1] + l[2],
-            OneSidedShear => 0.5 * l[1],
-            _ => 0.5 * (l[1] + l[2]),
-        };
+        let shear = 0.5 * (l[1] + l[2]);
         let trace = l[0] + l[3];
         let rates = [
             lambda * trace + 2.0 * mu * l[0],
             2.0 * mu * shear,
-            2.0 * mu * if self.defect == OneSidedShear { 0.5 * l[2] } else { shear },
+            2.0 * mu * shear,
             lambda * trace + 2.0 * mu * l[3],
         ];
         for k in 0..4 {
@@ -251,7 +216,6 @@ impl Subject for Client {
     #[expect(clippy::too_many_lines, reason = "one step, with a place for each defect")]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         let defect = self.defect;
-        let dt = if defect == OwnStep { 0.01 } else { dt };
         let t = self.steps as f64 * dt;
         let [width, height] = self.nodes();
         let particles = &self.problem.particles;
@@ -266,14 +230,7 @@ impl Subject for Client {
             let sigma = self.sigma[p];
             let f = self.f[p];
             let j = f[0] * f[3] - f[1] * f[2];
-            let volume = j
-                * volumes[p]
-                * match defect {
-                    WholeCells => 4.0,
-                    PushingStress => -1.0,
-                    NoStress => 0.0,
-                    _ => 1.0,
-                };
+            let volume = j * volumes[p] * if defect == WholeCells { 4.0 } else { 1.0 };
             let m = if defect == NoDensity { volumes[p] } else { masses[p] };
             for (node, weight, gradient) in weights.iter().flatten() {
                 mass[*node] += weight * m;
@@ -326,12 +283,8 @@ impl Subject for Client {
                     }
                 }
             }
-            // Factor on the first step if the start is half a step back or half a step ahead.
-            let first = match defect {
-                Leapfrog if self.steps == 0 => 0.5,
-                VelocityAhead if self.steps == 0 => 1.5,
-                _ => 1.0,
-            };
+            // Factor on the first step if the start is half a step back.
+            let first = if defect == Leapfrog && self.steps == 0 { 0.5 } else { 1.0 };
             let cell = self.cell(self.x[p]);
             for i in 0..2 {
                 self.v[p][i] += first * change[i];
@@ -340,21 +293,9 @@ impl Subject for Client {
                     Pic | UnevenWeightsInPic => self.v[p][i] = v[i],
                     PicAtFirst if self.steps == 0 => self.v[p][i] = v[i],
                     Drag => self.v[p][i] *= 1.0 - 0.5 * dt,
-                    UnevenDrag => {
-                        let label = self.problem.particles.reference_position[2 * p];
-                        self.v[p][i] *= 1.0 - label * dt;
-                    }
-                    LossPerStep => self.v[p][i] *= 0.999,
                     _ => {}
                 }
-                self.x[p][i] += dt * v[i] * if defect == PositionsShort { 0.75 } else { 1.0 };
-                if defect == UnitCube {
-                    self.x[p][i] = self.x[p][i].min(1.0);
-                }
-                if defect == SinglePrecision {
-                    self.x[p][i] = f64::from(self.x[p][i] as f32);
-                    self.v[p][i] = f64::from(self.v[p][i] as f32);
-                }
+                self.x[p][i] += dt * v[i];
             }
             if defect == LossAtCrossings && self.cell(self.x[p]) != cell {
                 self.v[p] = self.v[p].map(|v| 0.99 * v);
@@ -367,34 +308,13 @@ impl Subject for Client {
 
     fn sample(&self, samples: &mut Samples) {
         let particles = &self.problem.particles;
-        let grid = &self.problem.grid;
         samples.restart(2);
         for (p, label) in vectors(&particles.reference_position).iter().enumerate() {
-            let mut u = [0, 1].map(|i| self.x[p][i] - label[i]);
-            let mut v = self.v[p];
-            match self.defect {
-                Positions => u = self.x[p],
-                Millimetres => u = u.map(|u| 1000.0 * u),
-                Exchanged => {
-                    u.swap(0, 1);
-                    v.swap(0, 1);
-                }
-                Wrapped if grid.periodic[0] => {
-                    let period = grid.h * grid.cells[0] as f64;
-                    let x = (self.x[p][0] - grid.origin[0]).rem_euclid(period) + grid.origin[0];
-                    u[0] = x - label[0];
-                }
-                RoundedOutput => u = u.map(|u| f64::from(u as f32)),
-                Random => u[0] += 1e-3 * f64::from(self.run) * u[0],
-                _ => {}
-            }
-            samples.push(label, &u, &v, particles.reference_volume[p]);
+            let u = [0, 1].map(|i| self.x[p][i] - label[i]);
+            samples.push(label, &u, &self.v[p], particles.reference_volume[p]);
         }
-        let sign = if self.defect == PressurePositive { -1.0 } else { 1.0 };
-        samples.stress = self.sigma.iter().flatten().map(|s| sign * s).collect();
-        let turned =
-            |f: &[f64; 4]| if self.defect == Transposed { [f[0], f[2], f[1], f[3]] } else { *f };
-        samples.deformation_gradient = self.f.iter().flat_map(turned).collect();
+        samples.stress = self.sigma.iter().flatten().copied().collect();
+        samples.deformation_gradient = self.f.iter().flatten().copied().collect();
     }
 
     fn counters(&self) -> RunCounters {

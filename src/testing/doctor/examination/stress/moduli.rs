@@ -281,4 +281,38 @@ mod tests {
             }
         }
     }
+
+    /// Cells have 0.15 m, and 3 particles along each axis, or 2 in 3-D. The density is 1.7 kg/m3.
+    #[test]
+    fn factor_has_its_cause() {
+        for (d, factor, cause) in [
+            (2, 1.7, "the density is missing"),
+            (2, 0.588, "divided by the density a second time"),
+            (1, 3.0, "the volume of a whole cell"),
+            (2, 9.0, "the volume of a whole cell"),
+            (3, 8.0, "the volume of a whole cell"),
+            (2, 0.111, "the mass of a whole cell"),
+            (2, 6.667, "gradients are divided by h twice"),
+            (2, 0.15, "gradients are not divided by h"),
+            (2, 2.0, "forces are added twice"),
+            (2, 0.5, "forces are halved"),
+            (2, 10.0, "wrong by a factor of ten"),
+            (2, 0.1, "wrong by a factor of ten"),
+            (2, 1e3, "in kPa"),
+            (2, 1e-3, "in kPa"),
+            (2, 1e6, "in MPa"),
+            (2, 1e-6, "in MPa"),
+            (2, 0.0225, "volumes are multiplied by the volume of a cell, or gradients in strains"),
+            (1, 0.0225, "gradients in strains and in forces are not divided by h"),
+            (3, 0.0225, "gradients in strains and in forces are not divided by h"),
+            (3, 0.003_375, "volumes are multiplied by the volume of a cell"),
+            (2, 44.44, "masses are multiplied by the volume of a cell"),
+            (3, 296.3, "masses are multiplied by the volume of a cell"),
+        ] {
+            let all = factors(&spreading((d, "neo_hookean")));
+            let found = all.iter().find(|(wanted, _)| (factor / wanted - 1.0).abs() < 0.003);
+            let found = found.map(|(_, cause)| *cause).unwrap_or_default();
+            assert!(found.contains(cause), "{d}-D, {factor}: {found}");
+        }
+    }
 }

@@ -247,3 +247,73 @@ fn sinks(wall: &Wall) -> bool {
         wall.stretch.abs() <= STRETCH && wall.offset.is_some_and(|offset| !(offset >= -WEIGHT));
     sinks_by_steps || is_missing
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::doctor::tests::rows;
+
+    /// Columns: forces on a body that is pushed, is pulled, moves along, and falls; force in the first
+    /// step of a fall; displacement through the wall; jump; sinking, and sinking with half the step;
+    /// error in a stretch; column `stress`.
+    #[test]
+    fn walls_have_their_cause() {
+        const WALLS: &str = "
+1.04 0.96 1.45 1.04 0.04  0.79  2.9 0.11 0.084 0.049 1.45 |                              | 
+1.04 0.96 0.55 0.96 -0.04 -0.79 -3  0.09 0.09  0     0.55 |                              | 
+1    1    1    1    0     0     3.1 0    0     0     1    | position-limited             | 3.100 of v dt
+NaN  1    1    1    0     0     1   0    0     0     1    | wall-force                   | right
+0.09 0.09 1    0.52 0     5.7   1   0    0     0     1    | wall-holds-acceleration-only | falls 0.5200
+0.09 0.09 1    0.48 0     5.7   1   0    0     0     1    | wall-missing                 | pushed 0.09000
+0.09 0.09 1    0.52 0     5.5   1   0    0     0     1    | wall-holds-velocity-only     | pulled 0.09000
+0.55 0.19 1    1    0     0     1   0    0     0     1    | wall-lets-go                 | fixed right: forc
+0.55 0.21 1    1    0     0     1   0    0     0     1    | wall-force                   | pushed 0.5500
+0.11 0.11 1    0.5  0     5.7   1   0    0     0     1    | wall-force                   | pushed 0.1100
+1.55 1    1    1    0     0     1   0    0     0     1    | wall-force                   | pushed 1.550
+1    0.45 1    1    0     0     1   0    0     0     1    | wall-force                   | pulled 0.4500
+1    1    1    1.22 0     0     1   0    0     0     1    | wall-force                   | falls 1.220
+1    1    1    0.78 0     0     1   0    0     0     1    | wall-force                   | falls 0.7800
+1    1    1    1    0.42  0     1   0    0     0     1    | wall-force                   | of a fall 0.4200
+1    1    0.45 1    0     0     1   0    0     0     1    | wall-force                   | slides 0.4500
+1    1    1.55 1    0     0     1   0    0     0     1    | wall-force                   | slides 1.550
+1    1    0.19 1    0     0     1   0    0     0     1    | fixed-lets-slide             | slides 0.1900
+1    1    1    1    0     0.81  1   0    0     0     1    | particles-cross-wall         | by 0.8100 times
+1    1    1    1    0     -0.81 1   0    0     0     1    | particles-cross-wall         | by -0.8100 times
+1    1    1    1    0     0     1   0.11 0.08  0     1    | wall-moves-under-gravity     | by 0.1100 (with h
+1    1    1    1    -0.32 0     1   0    0     0     1    | wall-moves-under-gravity     | of a fall -0.3200
+1    1    1    1    0     0     1   0    0     0     1.55 | stress-column                | wall is 1.550
+1    1    1    1    0     0     1   0    0     0     0.45 | stress-column                | wall is 0.4500
+1.06 1    1    1    0     0     1   0    0     0     1    | wall-force                   | fixed left: pushe
+1    1    1    1.06 0     0     1   0    0     0     1    | wall-force                   | fixed right: push
+1    1    1    1    0     0     1   0    0     0.051 1    | (wall-breaks-linear-fields)  | up to 0.05100
+";
+        for (numbers, name, figure) in rows(WALLS) {
+            let wall = |face, numbers: [f64; 11]| {
+                let [pushed, pulled, along, falling, offset, through, jump, sinks, halved, ..] =
+                    numbers;
+                Wall {
+                    face,
+                    condition: "fixed",
+                    pushed: Some(pushed),
+                    pulled: Some(pulled),
+                    along: Some(along),
+                    falling: Some(falling),
+                    offset: Some(offset),
+                    through: Some(through),
+                    jump,
+                    sinking: Some([sinks, halved]),
+                    stretch: numbers[9],
+                    column: Some(numbers[10]),
+                }
+            };
+            let sound = wall("left", [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+            let found = finding(&[sound, wall("right", numbers)]);
+            let named = found.as_ref().map_or(String::new(), |finding| match finding.weight {
+                FindingWeight::Defect => finding.name.to_owned(),
+                FindingWeight::Remark => format!("({})", finding.name),
+            });
+            assert_eq!(named, name, "{found:?}");
+            assert!(found.is_none_or(|finding| finding.seen.contains(figure)), "no `{figure}`");
+        }
+    }
+}
