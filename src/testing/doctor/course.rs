@@ -85,16 +85,17 @@ impl Course {
         sum / all
     }
 
-    /// Returns the largest difference between `wanted` and the vector of any point in state `k`.
+    /// Returns the largest difference between `wanted` and the vector of any point in state `k`;
+    /// infinite if a vector is NaN.
     pub(super) fn farthest(&self, field: Field, k: usize, wanted: impl Into<Vector3<f64>>) -> f64 {
         let wanted = wanted.into();
-        self.points(field, k).map(|(_, vector)| (vector - wanted).norm()).fold(0.0, f64::max)
+        self.points(field, k).map(|(_, vector)| (vector - wanted).norm()).fold(0.0, larger)
     }
 
-    /// Returns the largest change of a displacement in the first step (m).
+    /// Returns the largest change of a displacement in the first step (m); infinite if it is NaN.
     pub(super) fn first_motion(&self) -> f64 {
         let pairs = self.points(displacement, 0).zip(self.points(displacement, 1));
-        pairs.map(|((_, a), (_, b))| (b - a).norm()).fold(0.0, f64::max)
+        pairs.map(|((_, a), (_, b))| (b - a).norm()).fold(0.0, larger)
     }
 
     /// Returns the label of every point and its vector in state `k`; missing components are zero.
@@ -110,6 +111,11 @@ impl Course {
             .zip(field(samples).chunks_exact(d))
             .map(|(x, v)| (vector(x), vector(v)))
     }
+}
+
+/// Returns the larger of two numbers; infinity in place of NaN, which `f64::max` ignores.
+fn larger(a: f64, b: f64) -> f64 {
+    if b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
 
 /// Returns a vector with these components; missing components are zero.

@@ -199,7 +199,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let error = |k| motion.way_off(k) / (motion.velocity.norm() * course.times[course.last()]);
     let (before, at) = (first.checked_sub(1).map(error)?, error(course.last()));
     // If two steps before the cell change are correct, only the cell change causes the error.
-    if first < 3 || !(before <= 1e-4 * at && at > 10.0 * motion.patient.rounding()) {
+    if first < 3 || !(before < 1e-4 * at && at > 10.0 * motion.patient.rounding()) {
         return None;
     }
     let v_before = course.farthest(velocity, first - 1, motion.velocity) / motion.velocity.norm();

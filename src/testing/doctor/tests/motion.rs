@@ -129,6 +129,7 @@ fn errors_of_a_uniform_motion_have_their_cause() {
 0      0       0       9e-4 0    | single-precision          |
 0      0       0       0    0.3  | drag                      | lost at a rate of 0.3000 per second
 0      0       0       0    -0.2 | drag                      | gained at a rate of -0.2000 per second
+NaN    0       0       0    0    | weights-do-not-sum-to-one | are up to inf of the distance travelle
 -2     0       0       0    0    | axes-exchanged            | `displacement` has the direction (-0.2
 -2     0       0       0    0    | axes-exchanged            | (-0.2500, 0.1562), expected (0.2500, -
 -2     -2      0       0    0    | axes-exchanged            | `velocity` has the direction (-0.2500,
@@ -367,6 +368,7 @@ fn losses_of_a_transfer_have_their_cause() {
 0.011 9.9  |                          | largest speed is 3.094e-5 m/s at the start, 3.403e-7 after
 0.009 1    | initial-velocity-dropped | 2.784e-7 after one step
 1     10.1 | affine-matrix-scaled     | 3.125e-4 at the end
+1     NaN  | affine-matrix-scaled     |
 ";
     let growing = |[first, last]: [f64; 2]| {
         move |problem: &LevelProblem, label, step: u64| {
