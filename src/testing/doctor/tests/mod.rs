@@ -102,8 +102,8 @@ fn examine(name: &str, motion: &Motion<'_>) -> Examined {
     examine_with(name, &MadeUp { dimension: 2, precision: Precision::Double, motion })
 }
 
-/// Asserts the names of the findings, of which remarks are in parentheses, and that the text of the
-/// first finding, or of the measured values without a finding, contains the figure.
+/// Asserts the names of the findings, with remarks in parentheses. The text of the first finding,
+/// or of the measured values without a finding, must contain the figure.
 #[track_caller]
 fn assert_found(examined: &Examined, names: &str, figure: &str) {
     let name = |finding: &SolverFinding| match finding.weight {

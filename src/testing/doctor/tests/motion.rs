@@ -43,7 +43,7 @@ fn body_at_rest_does_not_move() {
         let c = libm::sqrt(3.0 * 0.7 / 0.52 / 1.7);
         move |_: &LevelProblem, _, _| state(at(way * H, 0.0), at(0.0, speed * c))
     };
-    const STILL: &str = "
+    let still_rows = "
 0.9e-9  0      |                          | 20 steps, the largest displacement is 9.000e-10 cells
 0       0.9e-9 |                          | the largest speed is 9.000e-10 of the wave speed
 1.1e-9  0      | single-precision         | 1.100e-9 of the distance travelled
@@ -51,14 +51,14 @@ fn body_at_rest_does_not_move() {
 0.99e-5 0      | single-precision         | 9.900e-6 of the distance
 1.02e-5 0      | displaced-from-the-start | displaced by (1.275e-6, 0) m
 ";
-    check("rest", still, STILL);
+    check("rest", still, still_rows);
     for (share, names) in [(0.9e-3, ""), (1.1e-3, "displaced-from-the-start")] {
         let motion = &still([share, 0.0]);
         let solver = MadeUp { dimension: 2, precision: Precision::Single, motion };
         assert_found(&examine_with("rest", &solver), names, "");
     }
     // The velocity grows by a share of its last value, and the displacement is a multiple of v t.
-    const MOVING: &str = "
+    let moving_rows = "
 1    0.5  | gravity-left-on          | velocity (0.1400, -0.4600) m/s after 0.2000 s, an acceleration
 1    0.5  | gravity-left-on          | an acceleration of (0.7000, -2.300) m/s2
 0.51 0.5  | gravity-left-on          | an acceleration of (0.3570, -1.173) m/s2
@@ -72,10 +72,10 @@ fn body_at_rest_does_not_move() {
             state(way * t * v, v * (1.0 - share + share * t / 0.2))
         }
     };
-    check("rest", moving, MOVING);
+    check("rest", moving, moving_rows);
     // Each half moves apart by a share of the displacement, and velocities grow with the distance.
     // The outermost particles are 7/4 cells from the centre along both axes.
-    const APART: &str = "
+    let apart_rows = "
 0  0.001 0.0    0      | stress-at-rest             | 3.094e-4 m/s, mostly outwards
 0 -0.001 0.002  0      | stress-at-rest             | inwards relative to the centre of the body, and
 0 -0.001 0.002  0      | stress-at-rest             | with (0.002000, 
@@ -89,22 +89,22 @@ fn body_at_rest_does_not_move() {
             state(u, rate * x + drift * Vector3::x())
         }
     };
-    check("rest", apart, APART);
+    check("rest", apart, apart_rows);
     let positions = |[off]: [f64; 1]| {
         move |_: &LevelProblem, label, _| state(label + at(0.0, off * H), Vector3::zeros())
     };
-    const POSITIONS: &str = "
+    let positions_rows = "
 0.9e-3 | positions-for-displacements | (0.5125, 0.6376)
 1.1e-3 | stress-at-rest              |
 ";
-    check("rest", positions, POSITIONS);
+    check("rest", positions, positions_rows);
 }
 
 /// The body moves with (0.25, -0.15625) m/s for 80 steps of 0.025 s. Columns: relative errors of
 /// displacement and speed; lead of all displacements and of the last one (dt); drag (1/s).
 #[test]
 fn errors_of_a_uniform_motion_have_their_cause() {
-    const UNIFORM: &str = "
+    let uniform_rows = "
 0.9e-9 0       0       0    0    |                           | errors are up to 9.000e-10 of the dist
 0      0.9e-9  0       0    0    |                           | up to 9.000e-10 of the speed
 1.1e-9 0       0       0    0    | single-precision          | 1.100e-9 of the distance travelled
@@ -143,18 +143,18 @@ NaN    0       0       0    0    | weights-do-not-sum-to-one | are up to inf of 
             state(moved * v, (1.0 + speed) * libm::exp(-drag * t) * v)
         }
     };
-    check("translation", uniform, UNIFORM);
+    check("translation", uniform, uniform_rows);
     let exchanged = |[x, y]: [f64; 2]| {
         move |problem: &LevelProblem, _, step| state(time(problem, step) * at(x, y), at(x, y))
     };
-    const EXCHANGED: &str = "
+    let exchanged_rows = "
 -0.15625 0.25    | axes-exchanged  | direction (-0.1562, 0.2500)
 0.25     0.15625 | axes-exchanged  | direction (0.2500, 0.1562)
 0.1      0.25    | velocity-scaled |
 ";
-    check("translation", exchanged, EXCHANGED);
+    check("translation", exchanged, exchanged_rows);
     // A thousandth is lost in each step, and with half the step at this multiple of the rate.
-    const LOSSES: &str = "
+    let losses_rows = "
 1.24 | drag                 | rate of 0.04002 per second, independent
 1.26 | speed-lost-each-step | (0.04002 per second, and 0.05043 per second with half
 2.0  | speed-lost-each-step | a share of 0.001000 of the speed is lost in each step
@@ -167,12 +167,12 @@ NaN    0       0       0    0    | weights-do-not-sum-to-one | are up to inf of 
             state(moved * v, libm::exp(step as f64 * log) * v)
         }
     };
-    check("translation", losing, LOSSES);
+    check("translation", losing, losses_rows);
 }
 
 #[test]
 fn errors_that_differ_between_points_have_their_cause() {
-    const LIMITED: &str = "
+    let limited_rows = "
 1.1 -9    | position-limited | up to x = 1.100 m, and
 9   -0.05 | position-limited | up to y = -0.05000 m, and
 ";
@@ -183,10 +183,10 @@ fn errors_that_differ_between_points_have_their_cause() {
             state(at(x[0].min(high), x[1].max(low)) - label, v)
         }
     };
-    check("translation", limited, LIMITED);
+    check("translation", limited, limited_rows);
     // Speeds are lost at up to 0.0175 per second, in proportion to the distance from the centre and
     // to a power of the step. Without stiffness, all errors have the factor of the first column.
-    const UNEVEN: &str = "
+    let uneven_rows = "
 0.9e-3 1    | gradients-do-not-sum-to-zero | is 0.03500 of the speed, and 3.150e-5 in a run without
 1.1e-3 -0.6 | weights-do-not-sum-to-one    | are up to 0.01750 of the distance travelled, and velo
 1.1e-3 -0.6 | weights-do-not-sum-to-one    | without stiffness they are 1.925e-5 and 3.850e-5
@@ -203,14 +203,14 @@ fn errors_that_differ_between_points_have_their_cause() {
             state((t - 0.5 * loss * t * t) * v, (1.0 - loss * t) * v)
         }
     };
-    check("translation", uneven, UNEVEN);
+    check("translation", uneven, uneven_rows);
 }
 
 #[test]
 fn errors_at_cells_and_surfaces_have_their_cause() {
     // Columns: number of correct steps, depth (cells) of the particles with an error. A particle
     // changes its cell in step 3 for the first time, because 0.8625 + 3 0.05 > 1.
-    const NEAR: &str = "
+    let near_rows = "
 2 9   | wrong-after-a-cell-crossing | correct up to step 2, and
 1 9   | weights-do-not-sum-to-one   |
 0 1.5 | light-nodes-left-out        | in step 1, points near the surface have displacement errors
@@ -225,10 +225,10 @@ fn errors_at_cells_and_surfaces_have_their_cause() {
             state((time(problem, step) + off * problem.dt * steps) * v, v)
         }
     };
-    check("translation", near, NEAR);
-    // Columns: change of the positions on faces (v dt), velocity error with stiffness, F_yx. Half of
-    // the particles lie on a face after step 3.
-    const FACES: &str = "
+    check("translation", near, near_rows);
+    // Columns: change of the positions on faces (v dt), velocity error with stiffness, F_yx. Half
+    // of the particles lie on a face after step 3.
+    let faces_rows = "
 0    0    0.9e-6 |                           | in 32 steps
 0.04 0    0      | positions-changed         | From step 4 on, particles that lie on a cell face
 0.04 0    0      | positions-changed         | move by up to 0.04000 v dt more or less
@@ -249,13 +249,13 @@ fn errors_at_cells_and_surfaces_have_their_cause() {
             PointState { u: (time(problem, step) + off) * v, v: (1.0 + stiff) * v, tensors }
         }
     };
-    check("faces", on_faces, FACES);
+    check("faces", on_faces, faces_rows);
 }
 
 /// Velocities `g (t - l dt)`; each step moves the body by `v dt + (1 + q) g dt^2/2`.
 #[test]
 fn times_of_a_fall_have_their_cause() {
-    const TIMES: &str = "
+    let times_rows = "
 0     0     |                               | after 40 steps, v = (0, -1.480) m/s and u = (0, -0.2960)
 0     1     | (start-half-a-step-off)       | v = g (t), expected v = g t; the measured displacement
 0     1.09  | (start-half-a-step-off)       | u = g t^2/2 + 1.090 g t dt/2, expected
@@ -285,14 +285,14 @@ fn times_of_a_fall_have_their_cause() {
             }
         }
     };
-    check("fall", falling, TIMES);
+    check("fall", falling, times_rows);
 }
 
 /// Columns: factor of gravity, its share along x, and that of the difference between two halves. A
 /// particle has the mass 1.7 (1/16)^2 kg.
 #[test]
 fn factor_of_gravity_has_its_cause() {
-    const FACTORS: &str = "
+    let factors_rows = "
 1.0011       0    0     | gravity-scaled              | is 1.001 times the gravity of the problem
 0.9e-3       0    0     | gravity-missing             | 9.000e-4 times the gravity
 -0.985       0    0     | gravity-upwards             | -0.9850 times
@@ -320,16 +320,16 @@ fn factor_of_gravity_has_its_cause() {
             state(0.5 * t * t * g, t * g)
         }
     };
-    check("fall", falling, FACTORS);
+    check("fall", falling, factors_rows);
 }
 
 /// The moment of momentum of a box of 4 x 4 cells with the particle spacing h/2 is lost in units of
-/// `2 h^2/(2 (16 - 1/4)/12 h^2)`. Columns: losses in the first and in later steps of a stretch, of a
-/// rotation, and of a stretch of a small body.
+/// `2 h^2/(2 (16 - 1/4)/12 h^2)`. Columns: losses in the first and in later steps of a stretch, of
+/// a rotation, and of a stretch of a small body.
 #[test]
 fn losses_of_a_transfer_have_their_cause() {
     const UNIT: f64 = 12.0 / 15.75;
-    const LOSSES: &str = "
+    let losses_rows = "
 0.039 0.0039 0.02  0.0036 0     0     |                          | 0.03900 in the first step and 0.003900
 0.039 0.0039 0.02  0.0036 0     0     |                          | 0.02000 and 0.003600 in a rotation
 0.041 0      0     0      0     0     | (first-step-spreads)     | by 0.04100 h^2
@@ -361,10 +361,10 @@ fn losses_of_a_transfer_have_their_cause() {
             state(Vector3::zeros(), 1e-4 * if step == 0 { 1.0 } else { kept } * v)
         }
     };
-    check("transfer", losing, LOSSES);
-    // Columns: velocities after the first and after the last step, relative to the initial ones. The
-    // fastest particle is 7/4 cells from the centre along both axes.
-    const GROWTH: &str = "
+    check("transfer", losing, losses_rows);
+    // Columns: velocities after the first and after the last step, relative to the initial ones.
+    // The fastest particle is 7/4 cells from the centre along both axes.
+    let growth_rows = "
 0.011 9.9  |                          | largest speed is 3.094e-5 m/s at the start, 3.403e-7 after
 0.009 1    | initial-velocity-dropped | 2.784e-7 after one step
 1     10.1 | affine-matrix-scaled     | 3.125e-4 at the end
@@ -377,14 +377,14 @@ fn losses_of_a_transfer_have_their_cause() {
             state(Vector3::zeros(), 1e-4 * share * from_centre(problem, label))
         }
     };
-    check("initial-velocity", growing, GROWTH);
+    check("initial-velocity", growing, growth_rows);
 }
 
 /// The force per mass is 0.8 + 6 t (m/s2). Columns: steps by which velocities lag and forces are
 /// late, factor of the speed, share of the growth, share of the gradient, delay of requests (s).
 #[test]
 fn times_and_places_of_a_force_have_their_cause() {
-    const FORCES: &str = "
+    let forces_rows = "
 0    0     1 1    1    0    |                                | in 20 steps; the speed increases by 0.80
 0.59 0     1 1    1    0    |                                |
 0    0.09  1 1    1    0    |                                |
@@ -419,14 +419,14 @@ fn times_and_places_of_a_force_have_their_cause() {
             state(Vector3::zeros(), v0 + at(factor * gained, 0.0))
         }
     };
-    check("force", forced, FORCES);
+    check("force", forced, forces_rows);
 }
 
 /// The body moves by 0.375 m, and the period is 0.5 m. Columns: axis of the mistake, displacement
 /// (periods) and share of the speed that points beyond the end lose.
 #[test]
 fn displacements_along_a_periodic_axis_are_not_wrapped() {
-    const WRAPPED: &str = "
+    let wrapped_rows = "
 2 0     0   |                       | in 60 steps
 1 1     0   | displacements-wrapped | along y, some displacements differ from the distance of 0.375 m
 1 1     0   | displacements-wrapped | multiples of the period of 0.5 m
@@ -445,15 +445,15 @@ fn displacements_along_a_periodic_axis_are_not_wrapped() {
             state(u, (1.0 - lost) * v)
         }
     };
-    check("periodic", wrapped, WRAPPED);
+    check("periodic", wrapped, wrapped_rows);
 }
 
-/// Columns: relative change of displacements in the second run, for one message, and for one message
-/// under acceleration; ratio of distances for half the step. Differences of components are divided
-/// by the length sqrt(2) of the vector.
+/// Columns: relative change of displacements in the second run, for one message, and for one
+/// message under acceleration; ratio of distances for half the step. Differences of components are
+/// divided by the length sqrt(2) of the vector.
 #[test]
 fn runs_and_messages_give_equal_results() {
-    const CHANGES: &str = "
+    let changes_rows = "
 0      1.3e-9 1.3e-9 0.74 |                             | 36 points in 2-D, law linear_elastic, 6 steps
 1.3e-9 0      0      0.5  | (rounding-differs-each-time) | differ by 9.192e-10 of the largest
 1.5e-9 0      0      0.5  | another-way-each-time       | differ by 1.061e-9 of the largest
@@ -478,5 +478,5 @@ fn runs_and_messages_give_equal_results() {
             state((1.0 + of_message + of_run) * of_step * time(problem, step) * v, v)
         }
     };
-    check("conversation", changing, CHANGES);
+    check("conversation", changing, changes_rows);
 }

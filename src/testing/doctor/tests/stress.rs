@@ -17,7 +17,8 @@ fn covered_capabilities_exist() {
 const LAMBDA: f64 = 3.1 * 0.3 / (1.3 * 0.4);
 const MU: f64 = 3.1 / 2.6;
 
-/// Returns the distance from the centre of the body with this index along each axis, and its length.
+/// Returns the distance from the centre of the body with this index along each axis, and its
+/// length.
 fn from_centre(
     problem: &LevelProblem,
     body: usize,
@@ -44,7 +45,7 @@ fn gained(x: Vector3<f64>, length: [f64; 2], density: f64, impulse: &Matrix3<f64
 /// the end; momentum that is gained, over that of the free faces.
 #[test]
 fn moduli_have_their_cause() {
-    const MODULI: &str = "
+    let moduli_rows = "
 4.17308  1.78846  1.19231  1.19231  0      0.9e-6  |                           | are 4.173 Pa along the
 4.17308  1.78846  1.19231  1.19231  0      0.9e-6  |                           | 1.788 Pa across the st
 4.17308  1.78846  1.15     1.20     0      0       |                           | and 1.150 and 1.200 Pa
@@ -97,14 +98,14 @@ fn moduli_have_their_cause() {
             PointState { v, ..PointState::default() }
         }
     };
-    check("stress", strained, MODULI);
+    check("stress", strained, moduli_rows);
 }
 
-/// Columns: factors of all moduli, of the column `stress`, of F - I, and of F_xy alone. The body has
-/// 1.7 kg/m3, cells of 0.15 m and 3 x 3 particles per cell.
+/// Columns: factors of all moduli, of the column `stress`, of F - I, and of F_xy alone. The body
+/// has 1.7 kg/m3, cells of 0.15 m and 3 x 3 particles per cell.
 #[test]
 fn factors_and_columns_have_their_cause() {
-    const FACTORS: &str = "
+    let factors_rows = "
 1       1    1    1    |                                 |
 1       1.19 1    1    |                                 |
 1       1.21 1    1    | stress-column                   | the column is 1.210 times the expected
@@ -135,14 +136,14 @@ fn factors_and_columns_have_their_cause() {
             PointState { v, tensors: Some([law * (stress * t), f]), ..PointState::default() }
         }
     };
-    check("stress", scaled, FACTORS);
+    check("stress", scaled, factors_rows);
 }
 
-/// Columns: moduli of the first body, which has 1.7 kg/m3, and of the second one, which is 2.6 times
-/// as stiff and 1.5 times as heavy.
+/// Columns: moduli of the first body, which has 1.7 kg/m3, and of the second one, which is 2.6
+/// times as stiff and 1.5 times as heavy.
 #[test]
 fn bodies_have_their_moduli() {
-    const MODULI: &str = "
+    let moduli_rows = "
 1.09    0.91    |                             | modulus of the first body 1.090, of the second body 0.91
 1.11    1       | bodies-differ               | modulus of the first body 1.110
 1       0.89    | bodies-differ               | of the second body 0.8900
@@ -169,15 +170,15 @@ fn bodies_have_their_moduli() {
             PointState { v, ..PointState::default() }
         }
     };
-    check("bodies", strained, MODULI);
+    check("bodies", strained, moduli_rows);
 }
 
-/// Columns: force relative to that of the initial stress, its delay (steps), change of displacements
-/// in the first step relative to the initial ones; velocity after one step and later acceleration
-/// under a gradient of the initial stress.
+/// Columns: force relative to that of the initial stress, its delay (steps), change of
+/// displacements in the first step relative to the initial ones; velocity after one step and later
+/// acceleration under a gradient of the initial stress.
 #[test]
 fn initial_stress_has_its_force() {
-    const FORCES: &str = "
+    let forces_rows = "
 1.11 0    0.19 1.61 1.29 |                              | is 1.110 of the expected force and begins 0
 0.89 0.74 0    0.39 0.71 |                              | is 0.8900 of the expected force and begins 0
 1    0.86 0    1    1    | initial-stress-dropped       | begins 0.9000 steps after the start
@@ -214,5 +215,5 @@ fn initial_stress_has_its_force() {
             PointState { u, v: gained(x, length, 1.7, &impulse), tensors: None }
         }
     };
-    check("start", released, FORCES);
+    check("start", released, forces_rows);
 }

@@ -9,13 +9,13 @@ fn speed_and_cell() -> (f64, f64) {
     (libm::sqrt(3.1 / 1.7), 0.125)
 }
 
-/// Columns: face with the mistake (4 fixed and 4 rollers; 9 for all); forces on a body that is pushed,
-/// is pulled, moves along, and falls; force in the first step of a fall; displacement through the
-/// wall; jump in the first step; sinking, and sinking with half the step; error in a stretch; column
-/// `stress`; velocity along a roller.
+/// Columns: face with the mistake (4 fixed and 4 rollers; 9 for all); forces on a body that is
+/// pushed, is pulled, moves along, and falls; force in the first step of a fall; displacement
+/// through the wall; jump in the first step; sinking, and sinking with half the step; error in a
+/// stretch; column `stress`; velocity along a roller.
 #[test]
 fn forces_and_motions_at_walls_are_measured() {
-    const WALLS: &str = "
+    let walls_rows = "
 9 1.45 0.55 1.45 1.18 0.38  0.75 2.9 0.09 0.09 0.04 1.45 1 |                          | all
 1 1.02 0.97 1.03 1.04 -0.01 0.75 1   0.01 0.01 0.02 1    1 |                          | fixed right: pushed 1.020, pulled 0.9700, slides 1.030, falls 1.040, first step of a fall -0.01000, stretch 0.02000; fixed bottom: pulled 1.000
 9 1    1    1    1    0     0.85 1   0    0    0    1    1 | particles-cross-wall     | passed the wall by 0.8500 times
@@ -86,5 +86,5 @@ fn forces_and_motions_at_walls_are_measured() {
             state
         }
     };
-    check("walls", walls, WALLS);
+    check("walls", walls, walls_rows);
 }

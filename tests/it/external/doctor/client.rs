@@ -213,7 +213,6 @@ impl Client {
 }
 
 impl Subject for Client {
-    #[expect(clippy::too_many_lines, reason = "one step, with a place for each defect")]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         let defect = self.defect;
         let t = self.steps as f64 * dt;

@@ -227,7 +227,7 @@ fn shown(status: ExitStatus) -> String {
     status.code().map_or("no status".to_owned(), |code| format!("exit status {code}"))
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use rstest::rstest;

@@ -253,12 +253,12 @@ mod tests {
     use super::*;
     use crate::testing::doctor::tests::rows;
 
-    /// Columns: forces on a body that is pushed, is pulled, moves along, and falls; force in the first
-    /// step of a fall; displacement through the wall; jump; sinking, and sinking with half the step;
-    /// error in a stretch; column `stress`.
+    /// Columns: forces on a body that is pushed, is pulled, moves along, and falls; force in the
+    /// first step of a fall; displacement through the wall; jump; sinking, and sinking with half
+    /// the step; error in a stretch; column `stress`.
     #[test]
     fn walls_have_their_cause() {
-        const WALLS: &str = "
+        let walls = "
 1.04 0.96 1.45 1.04 0.04  0.79  2.9 0.11 0.084 0.049 1.45 |                              | 
 1.04 0.96 0.55 0.96 -0.04 -0.79 -3  0.09 0.09  0     0.55 |                              | 
 1    1    1    1    0     0     3.1 0    0     0     1    | position-limited             | 3.100 of v dt
@@ -287,7 +287,7 @@ NaN  1    1    1    0     0     1   0    0     0     1    | wall-force          
 1    1    1    1.06 0     0     1   0    0     0     1    | wall-force                   | fixed right: push
 1    1    1    1    0     0     1   0    0     0.051 1    | (wall-breaks-linear-fields)  | up to 0.05100
 ";
-        for (numbers, name, figure) in rows(WALLS) {
+        for (numbers, name, figure) in rows(walls) {
             let wall = |face, numbers: [f64; 11]| {
                 let [pushed, pulled, along, falling, offset, through, jump, sinks, halved, ..] =
                     numbers;
