@@ -1,7 +1,7 @@
 //! Suites that would need too much memory or time are refused before anything is allocated.
 
-use super::samples::{BAR, CUBE, PLATE, SWEPT};
-use super::{Edits, refused};
+use super::samples::{BAR, SWEPT};
+use super::{Edits, for_each_row, refused};
 use allocation_counter::measure;
 use rstest::rstest;
 
@@ -12,30 +12,25 @@ fn refused_unallocated(sound: &str, edits: Edits<'_>, words: &[&str]) {
     assert!(bytes < 20_000_000, "{bytes} bytes");
 }
 
-#[rstest]
-#[case::ten_million_cells_along_each_edge(
-    CUBE,
-    &[("[4, 8]", "[▸10000000]")],
-    &["with 10000000 cells along the first axis, 1.6e21 nodes", "expected at most 5e7 nodes"]
-)]
-#[case::more_particles_than_nodes(
-    CUBE,
-    &[("[4, 8]", "[4, ▸200]"), ("ppc: 8", "ppc: 64")],
-    &["with 200 cells along the first axis, 5.1e8 particles", "expected at most 5e7 particles"]
-)]
-#[case::a_plate_as_long_as_an_orbit(
-    PLATE,
-    &[("to: [1, 0.5]", "to: [1, 1e9]"), ("[4, 8]", "[▸4, 8]")],
-    &["with 4 cells along the first axis, ", "expected at most 5e7 nodes"]
-)]
-#[case::a_crumb_on_a_huge_grid(
-    BAR,
-    &[("[L + 5]", "[▸1e300]")],
-    &["the box is 1e300 m long", "expected a length from 1e-30 to 1e30"]
-)]
-fn a_level_with(#[case] sound: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
-    refused_unallocated(sound, edits, words);
+#[test]
+fn sizes_are_refused_unallocated() {
+    for_each_row("", SIZES, refused_unallocated);
 }
+
+const SIZES: &str = r"
+@cube
+[4, 8] → [▸10000000]
+⇒ with 10000000 cells along the first axis, 1.6e21 nodes … expected at most 5e7 nodes
+[4, 8] → [4, ▸200]
+ppc: 8 → ppc: 64
+⇒ with 200 cells along the first axis, 5.1e8 particles … expected at most 5e7 particles
+@plate
+to: [1, 0.5] → to: [1, 1e9]
+[4, 8] → [▸4, 8]
+⇒ with 4 cells along the first axis, … expected at most 5e7 nodes
+@bar
+[L + 5] → [▸1e300] ⇒ the box is 1e300 m long … expected a length from 1e-30 to 1e30
+";
 
 /// Creates a list that contains `word` this number of times.
 fn list(word: &str, times: usize) -> String {

@@ -20,57 +20,25 @@ fn difference(f: impl Fn(f64, f64) -> f64, x: f64, y: f64, i: usize) -> f64 {
     (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h)
 }
 
+/// Formulas of x and y.
+const FORMULAS: &str = "x+y x-y -x*y x/y y/x x^2*y^3 x^y x^-2*y^0 x^1.5*y^1 2^x*y (x*y)^(x+y) sin(x*y) cos(x*y) \
+    tan(x*y) asin(x*y) acos(x*y) atan(x*y) atan2(x,y) atan2(y,x) atan2(-x,y*y) atan2(x,-y) \
+    atan2(-x*x,-y) sinh(x*y) cosh(x*y) tanh(x*y) asinh(x*y) exp(x*y) ln(x*y) sqrt(x*y) abs(x*y) \
+    abs(-x*y) sign(x*y)*x step(x)*y*x floor(x*y)+x bessel_j0(x*y) bessel_j1(x*y) lambert_w(x*y) \
+    min(x*x,y*x) max(x*x,y*x) wave(x*y,y) s(x*y)*s(y) sum(n,1,3,sin(n*x)*y^n/n) \
+    sum(n,0,3,(x*y)^n)";
+
 #[rstest]
 fn derivatives_agree_with_differences(
-    #[values(
-        "x+y",
-        "x-y",
-        "-x*y",
-        "x/y",
-        "y/x",
-        "x^2*y^3",
-        "x^y",
-        "x^-2*y^0",
-        "x^1.5*y^1",
-        "2^x*y",
-        "(x*y)^(x+y)",
-        "sin(x*y)",
-        "cos(x*y)",
-        "tan(x*y)",
-        "asin(x*y)",
-        "acos(x*y)",
-        "atan(x*y)",
-        "atan2(x,y)",
-        "atan2(y,x)",
-        "atan2(-x,y*y)",
-        "atan2(x,-y)",
-        "atan2(-x*x,-y)",
-        "sinh(x*y)",
-        "cosh(x*y)",
-        "tanh(x*y)",
-        "asinh(x*y)",
-        "exp(x*y)",
-        "ln(x*y)",
-        "sqrt(x*y)",
-        "abs(x*y)",
-        "abs(-x*y)",
-        "sign(x*y)*x",
-        "step(x)*y*x",
-        "floor(x*y)+x",
-        "bessel_j0(x*y)",
-        "bessel_j1(x*y)",
-        "lambert_w(x*y)",
-        "min(x*x,y*x)",
-        "max(x*x,y*x)",
-        "wave(x*y,y)",
-        "s(x*y)*s(y)",
-        "sum(n,1,3,sin(n*x)*y^n/n)",
-        "sum(n,0,3,(x*y)^n)"
-    )]
-    source: &str,
     #[values((0.6, 0.7), (0.8, 0.3), (0.31, 0.93))] point: (f64, f64),
 ) {
-    let (x, y) = point;
+    for source in FORMULAS.split(' ') {
+        println!("{source}");
+        agrees_with_differences(source, point);
+    }
+}
+
+fn agrees_with_differences(source: &str, (x, y): (f64, f64)) {
     let formula = bind(source, &X).unwrap();
     let found = jet(&formula, x, y);
     assert_eq!(found.value().to_bits(), formula.eval(&[x, y]).to_bits());

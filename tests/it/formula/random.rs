@@ -5,37 +5,8 @@ use proptest::prelude::*;
 use super::{bar, declare};
 use mpm_verify::exact::formula::{Expr, Formula, FormulaError, Jet};
 
-const TOKENS: &[&str] = &[
-    "1",
-    "2.5",
-    "2e-3",
-    ".5",
-    "x",
-    "y",
-    "L",
-    "E",
-    "pi",
-    "n",
-    "s",
-    "wave",
-    "sin",
-    "max",
-    "sum",
-    "sum(n,1,3,",
-    "s(",
-    "sin(",
-    "(",
-    ")",
-    ",",
-    "+",
-    "-",
-    "*",
-    "/",
-    "^",
-    " ",
-    ".",
-    "é",
-];
+const TOKENS: &str =
+    "1 2.5 2e-3 .5 x y L E pi n s wave sin max sum sum(n,1,3, s( sin( ( ) , + - * / ^ . é";
 
 /// A formula, which can be converted to text and to its value for given `x` and `y`.
 #[derive(Debug, Clone)]
@@ -130,7 +101,8 @@ pub(super) fn grow(text: &str) -> Formula {
 }
 
 fn soup() -> impl Strategy<Value = Vec<&'static str>> {
-    prop::collection::vec(prop::sample::select(TOKENS), 0..24)
+    let tokens: Vec<&str> = TOKENS.split(' ').chain([" "]).collect();
+    prop::collection::vec(prop::sample::select(tokens), 0..24)
 }
 
 /// Parses `source`. Asserts that the span of an error can be shown.
