@@ -23,10 +23,10 @@ fn displacements<const D: usize>(name: &str, place: [f64; D], t: f64) -> [f64; D
 
 /// Returns `u = us + sum_n a_n cos(c l_n t) sin(l_n y)`, `l_n = (2n - 1) pi/(2H)`. The series
 /// cancels the static solution `us` at t = 0. H = 1, c = 10.
-fn series(gravity: f64, load: f64, y: f64, t: f64, terms: u32) -> f64 {
+fn series(gravity: f64, load: f64, y: f64, t: f64) -> f64 {
     let c = 10.0;
     let still = gravity / (c * c) * (y * y / 2.0 - y) + load * y;
-    let waves: f64 = (1..=terms)
+    let waves: f64 = (1..=20_000)
         .map(|n| {
             let l = (2.0 * f64::from(n) - 1.0) * PI / 2.0;
             let sign = if n % 2 == 1 { 1.0 } else { -1.0 };
@@ -43,19 +43,7 @@ fn the_oedometer_agrees_with_its_series(
     #[values(0.0, 0.03, 0.21, 0.4, 0.5)] t: f64,
 ) {
     let images = displacement("oedometer", y, t);
-    assert_abs_diff_eq!(images, series(9.81, 0.0, y, t, 20_000), epsilon = 1e-10);
-}
-
-/// The series in the talk has 20 terms. Its error is 1e-5 of the largest displacement, as benchmark
-/// pages state.
-#[test]
-fn twenty_terms_of_the_series_have_an_error_of_at_most_1e_4() {
-    let largest = 2.0 * 9.81 / 200.0;
-    let error =
-        |y: f64, t: f64| (displacement("oedometer", y, t) - series(9.81, 0.0, y, t, 20)).abs();
-    for (y, t) in [(0.5, 0.5), (0.25, 0.13), (1.0, 0.1)] {
-        assert!(error(y, t) <= 1e-4 * largest, "{} at y = {y}, t = {t}", error(y, t));
-    }
+    assert_abs_diff_eq!(images, series(9.81, 0.0, y, t), epsilon = 1e-10);
 }
 
 /// Steffen's bar has the wave speed 1 m/s, so its series at t equals that of c = 10 at t/10.
@@ -65,7 +53,7 @@ fn steffens_bar_agrees_with_its_series(
     #[values(0.1, 0.6, 1.5)] t: f64,
 ) {
     let images = displacement("steffen-bar", x, t);
-    assert_abs_diff_eq!(images, series(0.0, 0.7 / 100.0, x, t / 10.0, 20_000), epsilon = 1e-7);
+    assert_abs_diff_eq!(images, series(0.0, 0.7 / 100.0, x, t / 10.0), epsilon = 1e-7);
 }
 
 /// Before the first wave arrives, the column falls freely. After half a period all displacements

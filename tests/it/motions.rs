@@ -73,31 +73,6 @@ fn the_force_of_the_axis_aligned_motion() {
     }
 }
 
-/// Kamojjala et al. (2015): circles rotate by `alpha = sin(pi t) h(R)`.
-#[rstest]
-#[case([0.9, 0.1], 0.3, [3.289_700_096, 3.008_206_302])]
-#[case([0.2, -1.05], 0.17, [4.325_638_55, 7.948_228_519])]
-#[case([-0.8, 0.7], 0.8, [1.259_727_527, -10.063_948_73])]
-fn the_force_of_the_generalized_vortex(
-    #[case] place: [f64; 2],
-    #[case] t: f64,
-    #[case] published: [f64; 2],
-) {
-    let functions: [(&str, &[&str], &str); 2] = [
-        ("h", &["r"], "1 - 32*(r - 1)^2 + 256*(r - 1)^4"),
-        ("alpha", &["x", "y", "s"], "sin(pi*s)*h(sqrt(x^2 + y^2))"),
-    ];
-    let components = [
-        "cos(alpha(X, Y, t))*X - sin(alpha(X, Y, t))*Y - X",
-        "sin(alpha(X, Y, t))*X + cos(alpha(X, Y, t))*Y - Y",
-    ];
-    let made = problem((1000.0, 0.3, 1000.0), &functions, &components, 1.0);
-    let found = made.manufactured_force(&place, t);
-    for (found, published) in found.iter().zip(published) {
-        assert_relative_eq!(*found, published, max_relative = 1e-8);
-    }
-}
-
 /// The composition of two simple shears preserves volume: `y = Y + S sin(2 pi x)`, with the present
 /// position x. Positions and forces were computed from `b = u_tt - Div P/rho0` by hand.
 #[rstest]

@@ -1,6 +1,6 @@
 //! Bodies that come to rest, and the damping that they need.
 
-use super::{refuse_all, refused};
+use super::refuse_all;
 
 #[test]
 fn mistakes_are_refused() {
@@ -49,6 +49,10 @@ of: stress, n → n
 equilibrium:\n  equation: hencky → ▸manufactured:
 of: stress, n → n
 ⇒ a part of it is manufactured … use `damping`
+# The exact solution of the oedometer is a motion, not a state of rest.
+@oedometer
+order: [1.5, 1.8] → order: [1.5, 1.8]\n    ▸rest_below: 1e-6
+⇒ `rest_below` needs an `equilibrium` … `equilibrium`
 @local-damping-bar
 methods: → methods:\n  - ▸fem: {element: linear, mass: lumped}
 ⇒ the built-in FEM does not support damping
@@ -180,18 +184,3 @@ functions:\n →
 material: { → material: ▸{
 ⇒ `quasi_static` does not support `linear_elastic` … hencky
 "#;
-
-/// The exact solution of the oedometer is a motion, not a state of rest.
-#[test]
-fn bound_on_rest_needs_a_body_that_comes_to_rest() {
-    let (order, bound) = ("    order: [1.5, 1.8]\n", "    ▸rest_below: 1e-6\n");
-    let column = super::COLUMN;
-    let line =
-        column.lines().find(|line| line.trim_start().starts_with("order: [")).unwrap_or(order);
-    let edit = format!("{line}\n{bound}");
-    refused(
-        column,
-        &[(&format!("{line}\n"), &edit)],
-        &["`rest_below` needs an `equilibrium`", "`equilibrium`"],
-    );
-}

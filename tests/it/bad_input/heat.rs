@@ -1,15 +1,10 @@
 //! Heat, bodies at rest, and thermal expansion.
 
-use super::{refuse_all, refused};
+use super::refuse_all;
 use crate::common::valid_suite;
 
 /// A bar at rest that cools through one end.
 const COOLED: &str = include_str!("../../../verification/heat/heat-convection.yaml");
-
-/// A bar that moves and is heated.
-const MOVING: &str = include_str!("../../../verification/heat/thermal-expansion-mms.yaml");
-
-const EXPANSION: &str = "    - thermal_expansion: {coefficient: alpha, reference: T0}";
 
 #[test]
 fn mistakes_are_refused() {
@@ -48,9 +43,6 @@ loads: → loads:\n    - ▸gravity: [1] ⇒ this load is not supported for a `r
 heat: {basis: [linear, cpgimp, quadratic_bspline, cubic_bspline]
    → ▸mpm: {basis: linear, transfer: flip, scheme: musl
 ⇒ a `rigid` body does not move … `heat: {basis: linear}`
-judge: {of: temperature} → judge: {of: velocity}
-material: {rigid → material: ▸{rigid
-⇒ the judged quantity needs a motion, but the body is `rigid` … judge: {of: temperature}
 judge: {of: temperature}\n →
 material: {rigid → material: ▸{rigid
 ⇒ the judged quantity needs a motion, but the body is `rigid` … judge: {of: temperature}
@@ -115,6 +107,11 @@ poisson: 0, density → poisson: 0.3, density
 ⇒ in 1-D `thermal_expansion` of a `neo_hookean` body needs a Poisson's ratio of 0
 neo_hookean: {young: E, poisson: 0, density: → newtonian: {bulk: E, viscosity: 1, density:
 ⇒ `thermal_expansion` does not support the law `newtonian`
+- heat:\n        conductivity: k\n        capacity: c\n        boundary:\n
+            left: {temperature: "T0 + dT*exp(-t)"}\n
+            right: {convection: {coefficient: 2, ambient: "T0 - dT*exp(-t)"}}\n    - thermal_e
+   → - ▸thermal_e
+⇒ `thermal_expansion` needs `heat`, which is not listed
 @thermal-expansion-clamped
 # A free edge has no traction. A heated plate that does not move would have one.
 bottom: fixed, top: fixed} → bottom: fixed}
@@ -129,14 +126,4 @@ fn source_without_temperature_may_use_the_name() {
     let sourced = own.replace("capacity: c\n", "capacity: c\n        source: 0*X\n");
     assert!(own != COOLED && sourced != own);
     valid_suite(&sourced);
-}
-
-/// The error points at the entry of the effect.
-#[test]
-fn thermal_expansion_needs_heat() {
-    let (start, end) = (MOVING.find("    - heat:").unwrap(), MOVING.find(EXPANSION).unwrap());
-    let heat = &MOVING[start..end];
-    let marked = "    - ▸thermal_expansion: {coefficient: alpha, reference: T0}";
-    let edits = [(heat, ""), (EXPANSION, marked)];
-    refused(MOVING, &edits, &["`thermal_expansion` needs `heat`, which is not listed"]);
 }

@@ -6,7 +6,6 @@
 mod boundaries;
 mod case_names;
 mod equilibria;
-mod foundation;
 mod grammar;
 mod heat;
 mod judged_boxes;
@@ -32,7 +31,7 @@ use crate::common::{built_in_source, edited, valid_suite};
 use crate::schema;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
-use samples::{BAR, COLUMN, CUBE, PLATE, SWEPT};
+use samples::{BAR, CUBE, PLATE, SWEPT};
 
 /// Marks the position at which an error must point.
 const HERE: char = '▸';

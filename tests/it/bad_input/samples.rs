@@ -88,9 +88,6 @@ pub(super) const CUBE: Edits<'_> = &[
     ("ppc: 4", "ppc: 8"),
 ];
 
-/// A column under gravity. Its wave has a kink in the strain.
-pub(super) const COLUMN: &str = include_str!("../../../verification/the-talk/oedometer.yaml");
-
 /// A suite with a particle that moves through a node.
 pub(super) const FORCE: &str = include_str!("../../../verification/the-talk/grid-crossing.yaml");
 

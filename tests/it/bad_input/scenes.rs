@@ -218,8 +218,6 @@ strain\n  displacement: ["u → strain\n  displacement: [▸"u
 @load-steps-cylinder-uniform
 - mpm: {basis: linear → - ▸mpm: {basis: cpgimp
 ⇒ the basis `cpgimp` is not supported in `plane: axisymmetric` … Nairn & Guilkey 2015
-boundary: {left: roller, b → ▸boundary: {b
-⇒ the left face lies on the axis, but is free … state `left: roller`
 boundary: {left: roller, bottom: roller} → boundary: {left: roller}
 body: → ▸body:
 ⇒ nothing holds the body along Y

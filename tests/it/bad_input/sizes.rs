@@ -43,16 +43,6 @@ fn more_levels_than_a_list_may_have() {
     refused_unallocated(BAR, &[("[6, 12]", &levels)], &["this list has more than 1000 entries"]);
 }
 
-#[test]
-fn a_million_levels() {
-    let text = BAR.replace("[6, 12]", &list("9", 1_000_000));
-    let diagnostic = super::load(&text).expect_err("too long");
-    assert_eq!(
-        diagnostic.one_line(),
-        "wrong.yaml: the file is too large: 1955 KiB, at most 64 KiB"
-    );
-}
-
 #[rstest]
 #[case(BAR, "flip, scheme: [musl, usl]", 1000)]
 #[case(SWEPT, "[flip, pic, apic], scheme: [usl, usf, musl]", 500)]

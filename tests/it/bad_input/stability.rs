@@ -1,11 +1,11 @@
 //! Stability studies: invalid sweeps, limits and expectations.
 
-use super::{SWEPT, edited, refuse_all, refuse_in};
+use super::{Edits, SWEPT, edited, refuse_all, refuse_in};
 
 #[test]
 fn mistakes_are_refused() {
     refuse_all(MISTAKES);
-    refuse_in(&edited(SWEPT, &HALVES), IN_HALVES);
+    refuse_in(&edited(SWEPT, HALVES), IN_HALVES);
 }
 
 const MISTAKES: &str = r#"
@@ -15,7 +15,6 @@ sweep: {d: [0.5 → sweep: ▸{C: [1], d: [0.5 ⇒ `sweep` must vary exactly one
 sweep: {d: [0.5, 0.1, 0.02, 0.01, 0.002, 0.001]} → sweep: ▸{} ⇒ exactly one parameter
 {parameter: C → {parameter: ▸d ⇒ `d` cannot be the parameter of both
 from: 0.01, to: 4 → from: 4, to: ▸4 ⇒ the range ends at 4 and starts at 4
-dt: "C*h/c" → dt: ▸"C*(h - h)" ⇒ the time step is 0
 dt: "C*h/c" → dt: ▸"(C - 0.01)*h/c" ⇒ the time step is 0
 {d: [0.5, 0.1, → {d: [0.5, 7,
 extra: [["4 + d"]] → extra: [▸["4 + d"]]
@@ -56,36 +55,29 @@ case: "mpm-linear-apic-*" → ▸any_method: true ⇒ only the last entry can ha
 frozen: true → ▸frosen: true ⇒ unknown key `frosen` … did you mean `frozen`?
 "#;
 
-const IN_HALVES: &str = r#"
-extra: [[ → ▸extra: [[ ⇒ `extra` is supported for a single body only
-methods: → show: [▸null_share]\nmethods:
-, extra: [["4 + d"]] →
-grid: → contact: {friction: 0}\n  grid:
-d: 0.5       # → d: 0.5   #
-dt: "C*h/c" → dt: "C*h/c*d/d"
-⇒ `null_share` is supported for a single body only
+const IN_HALVES: &str = r"
+ppc: 2 → ppc: 2, ▸extra: [[1]] ⇒ `extra` is supported for a single body only
+methods: → show: [▸null_share]\nmethods: ⇒ `null_share` is supported for a single body only
 critical: {above: 1.7, below: 1.8} → figures: {null_share: ▸{below: 1}}
-, extra: [["4 + d"]] →
-grid: → contact: {friction: 0}\n  grid:
-d: 0.5       # → d: 0.5   #
-dt: "C*h/c" → dt: "C*h/c*d/d"
 ⇒ `null_share` is supported for a single body only
-frozen: true → ▸frozen: true
-, extra: [["4 + d"]] →
-grid: → contact: {friction: 0}\n  grid:
-d: 0.5       # → d: 0.5   #
-dt: "C*h/c" → dt: "C*h/c*d/d"
-⇒ `frozen` is not supported with contact
-"#;
+frozen: true → ▸frozen: true ⇒ `frozen` is not supported with contact
+";
 
-/// Replaces the bar by two halves.
-const HALVES: [(&str, &str); 2] = [
+/// Replaces the bar by two halves in contact.
+const HALVES: Edits<'_> = &[
     (
-        "  body: {box: {from: [0], to: [4]}}\n",
-        "  bodies:\n    - body: {box: {from: [0], to: [2]}}\n      material: {linear_elastic: {young: E, poisson: 0, density: rho}}\n    - body: {box: {from: [2], to: [4]}}\n      material: {linear_elastic: {young: E, poisson: 0, density: rho}}\n",
+        "body: {box: {from: [0], to: [4]}}",
+        "contact: {friction: 0}
+  bodies:
+    - body: {box: {from: [0], to: [2]}}
+      material: {linear_elastic: {young: E, poisson: 0, density: rho}}
+    - body: {box: {from: [2], to: [4]}}
+      material: {linear_elastic: {young: E, poisson: 0, density: rho}}",
     ),
     (
         "  material: {linear_elastic: {young: E, poisson: 0, density: rho}}\n\nparticles",
         "\nparticles",
     ),
+    (", extra: [[\"4 + d\"]]", ""),
+    ("C*h/c", "C*h/c*d/d"),
 ];

@@ -40,8 +40,6 @@ initial_velocity: → initial_displacement: ["1e-3*X"]\n  initial_velocity:
 ⇒ initial condition u_X(X, 0) = 0 … t = 0.000000 … found inf m (off by inf)
 @oedometer - ▸"fall(t) -
 ["-g"] → ["g"] ⇒ equation of motion in X … expected 1.962000e4, found 0.000000e0 N/m3
-- gravity: ["-g"] → - gravity: ["0*g"] ⇒ equation of motion in X
-"sqrt(E/rho)" → "1.05*sqrt(E/rho)" ⇒ equation of motion in X … N/m3 (off by
 max(tau, 0)^2" → max(tau, 0)^2 - max(tau - 0.2, 0)"
 ⇒ momentum balance across wave fronts (the equation of motion in weak form
 @steffen-bar - ▸"sum(k, 0, 2

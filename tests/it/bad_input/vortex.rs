@@ -127,15 +127,3 @@ outer: 1.25 → outer: 1.2 ⇒ boundary condition: the outer rim is free, tracti
 expect: → observe: {at: ▸[0.1, 0.2]}\n\nexpect:
 ⇒ this point is outside the body … expected a point in the annulus
 "#;
-
-/// One particle is in the middle of the hole; another body flies through space.
-#[test]
-fn a_level_without_particles() {
-    let (head, _) = VORTEX.split_once("  loads:").expect("loads");
-    let (_, tail) = VORTEX.split_once("run:").expect("a run");
-    let flight = "\nexact:\n  equation: neo_hookean\n  displacement: [\"t/10\", 0]\n\nrun:";
-    let text = format!("{head}{flight}{tail}").replace("FORCE", CURRENT);
-    let edits = [("[16, 32]", "[▸1, 32]"), ("ppc: 4", "ppc: 1")];
-    let words = "with 1 cells along the first axis the body is smaller than a particle";
-    refused(&text, &edits, &[words]);
-}

@@ -126,9 +126,3 @@ fn names_and_calls_are_listed_in_reading_order() {
 fn the_number_of_variables_is_checked() {
     bind("x", &["x", "t"]).unwrap().eval(&[1.0]);
 }
-
-#[test]
-fn formulas_cross_threads() {
-    fn check<T: Send + Sync + Clone + std::fmt::Debug>(_: &T) {}
-    check(&bind("x", &["x"]).unwrap());
-}
