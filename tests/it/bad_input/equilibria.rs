@@ -51,8 +51,7 @@ of: stress, n → n
 ⇒ a part of it is manufactured … use `damping`
 # The exact solution of the oedometer is a motion, not a state of rest.
 @oedometer
-order: [1.5, 1.8] → order: [1.5, 1.8]\n    ▸rest_below: 1e-6
-⇒ `rest_below` needs an `equilibrium` … `equilibrium`
+[1.5, 1.8] → [1.5, 1.8]\n    ▸rest_below: 1e-6 ⇒ `rest_below` needs an `equilibrium` … `equilibrium`
 @local-damping-bar
 methods: → methods:\n  - ▸fem: {element: linear, mass: lumped}
 ⇒ the built-in FEM does not support damping
@@ -62,8 +61,7 @@ methods: → methods:\n  - ▸fem: {element: linear, mass: lumped}
 cohesion: coh → cohesion: 0.5*coh
 ⇒ violates the yield condition of `mohr_coulomb`: f = … at (0, 0) m … f must not be positive
 , zz: "-K0*G*(H - Y)"} → } ⇒ `initial_stress` does not state `zz` … all three normal stresses
-zz: "-K0 → ▸yz: 1, zz: "-K0
-⇒ `yz` is not a stress component in 2-D … components: `xx`, `yy`, `zz`, `xy`
+zz: → ▸yz: 1, zz: ⇒ `yz` is not a stress component in 2-D … components: `xx`, `yy`, `zz`, `xy`
 displacement: [0, 0] → displacement: [▸"1e-3*X*t^2", "1e-3*Y*t^2"]
 ⇒ is known in uniaxial strain only, but du_Y/dY is not zero
 @prestressed-bar
@@ -109,22 +107,17 @@ zz: "-l0" → zz: "-0.9*l0"
 ⇒ the lateral initial stresses yy and zz differ
 # Load steps: keys that require a motion in time, and loads, walls and laws that load steps exclude.
 @load-steps-hencky
-run: {load_steps: [1, 20]} → run: {load_steps: 20, ▸until: 1}
-⇒ load steps have no time … keep one of them
+{load_steps: [1, 20]} → {load_steps: 20, ▸until: 1} ⇒ load steps have no time … keep one of them
 run: {load_steps: [1, 20]} → run: ▸{dt: 1}
 - mpm: {basis: [linear, ugimp, cpgimp], scheme: quasi_static} → - external: {name: mine}
 ⇒ a run needs an end … load_steps
-run: {load_steps: [1, 20]} → run: {load_steps: 20, ▸dt: 0.1}
-⇒ `dt` is not supported with load steps: they have no duration
+[1, 20] → 20, ▸dt: 0.1 ⇒ `dt` is not supported with load steps: they have no duration
 ppc: 2} → ppc: 2, ▸dt: [4, 3, 2, 1]} ⇒ `dt` is not supported with load steps: they have no duration
 run: {load_steps: [1, 20]} → run: {load_steps: 20, ▸instants: 3}
 ⇒ `instants` is not supported with load steps: errors are computed after the last step only
-judge: {of: displacement, norm: rms} → judge: {of: ▸velocity, norm: rms}
-⇒ `velocity` is not supported with load steps: they have no velocity
-judge: {of: displacement, norm: rms} → judge: {of: ▸kinetic_energy}
-⇒ `kinetic_energy` is not supported with load steps
-judge: {of: displacement, norm: rms} → judge: {of: ▸momentum}
-⇒ `momentum` is not supported with load steps
+displacement, → ▸velocity, ⇒ `velocity` is not supported with load steps: they have no velocity
+displacement, norm: rms → ▸kinetic_energy ⇒ `kinetic_energy` is not supported with load steps
+{of: displacement, norm: rms} → {of: ▸momentum} ⇒ `momentum` is not supported with load steps
 [1, 20] → ▸0 ⇒ the number of load steps
 [1, 20] → [1, ▸2.5] ⇒ the number of load steps
 [1, 20] → ▸1000000 ⇒ expected a whole number from 1 to 1e5
@@ -145,8 +138,7 @@ mpm: {basis: [linear, ugimp, cpgimp], scheme: quasi_static → ▸fem: {element:
 run: {load_steps: [1, 20]} → run: {until: 1, dt: 0.1}
 scheme: quasi_static → scheme: ▸quasi_static
 ⇒ `quasi_static` needs a number of load steps … run: {load_steps: 20}
-scheme: quasi_static → ▸transfer: flip, scheme: quasi_static
-⇒ `quasi_static` does not support `transfer` … no velocities
+scheme: → ▸transfer: flip, scheme: ⇒ `quasi_static` does not support `transfer` … no velocities
 scheme: quasi_static → scheme: quasi_static, ▸mass: lumped ⇒ no inertia
 scheme: quasi_static → scheme: quasi_static, ▸start: at_zero ⇒ no initial velocity
 scheme: quasi_static → scheme: quasi_static, ▸frame: total_lagrangian ⇒ updated-Lagrangian
@@ -161,8 +153,7 @@ mpm: {basis: [linear, ugimp, cpgimp], scheme: quasi_static → ▸mpm: {basis: l
 - gravity: ["-g"] → - gravity: ["-g"]\n    - body_force: ▸["-ux"] ⇒ it depends on the displacement
 - gravity: ["-g"] → - gravity: ["-g"]\n    - damping: ▸0.1 ⇒ there is no velocity to damp
 - gravity: ["-g"] → - gravity: ["-g"]\n    - local_damping: ▸0.1 ⇒ there is no velocity to damp
-- gravity: ["-g"] → - gravity: ["-g"]\n    - pressure: ▸{on: right, value: 1}
-⇒ it is a follower load
+gravity: ["-g"] → gravity: ["-g"]\n    - pressure: ▸{on: right, value: 1} ⇒ it is a follower load
 loads:
    → sets: {tip: {box: {from: [40], to: [50]}}}\n  loads:\n    - velocity: ▸{on: tip, value: [1]}
 ⇒ a velocity belongs to a motion in time

@@ -88,10 +88,8 @@ right: fixed} → top: fixed}
 boundary: {left: fixed, top: fixed} → boundary: {left: fixed}
 right: {conv → ▸right: {conv
 ⇒ the right face is free, but heat can enter only at a face of the grid … leave it insulated
-transfer: flip, scheme: musl} → transfer: flip, scheme: musl, frame: ▸total_lagrangian}
-⇒ `total_lagrangian` does not support heat
-quadratic_bspline], transfer: flip → quadratic_bspline], transfer: ▸tls
-⇒ a transfer that integrates over cells does not support heat
+scheme: musl} → scheme: musl, frame: ▸total_lagrangian} ⇒ `total_lagrangian` does not support heat
+transfer: flip → transfer: ▸tls ⇒ a transfer that integrates over cells does not support heat
 mpm: {basis: [linear, cpgimp, quadratic_bspline], transfer: flip, scheme: musl
    → ▸fem: {element: linear, mass: lumped
 ⇒ the built-in FEM does not support heat

@@ -13,8 +13,7 @@ const MISTAKES: &str = r#"
 @bar
 # The bar `BAR` has waves of 10 m/s, and ends at 0.5 s.
 {norm: rms} → {norm: rms, within: {from: [10], to: [▸10]}} ⇒ the box ends at 10 and starts at 10
-{norm: rms} → {norm: rms, within: {from: [10], to: [▸26]}}
-⇒ 26 is outside the body … expected a number from 0 to 25
+rms → rms, within: {from: [10], to: [▸26]} ⇒ 26 is outside the body … expected a number from 0 to 25
 {norm: rms} → {norm: rms, within: {from: ▸[10, 1], to: [20]}} ⇒ 2 … 1
 {norm: rms} → {norm: rms, within: {▸form: [10], to: [20]}} ⇒ form … from
 {norm: rms} → {norm: rms, ▸within: {from: [10], to: [20]}}

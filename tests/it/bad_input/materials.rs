@@ -23,8 +23,7 @@ linear_elastic: {young: E, poisson: 0, density: rho
 ⇒ unknown key `poisson` … bulk
 {linear_elastic: {young: E, poisson: 0, → {newtonian: {bulk: E, ▸viscositi: 0,
 ⇒ unknown key `viscositi` … did you mean `viscosity`?
-{linear_elastic: {young: E, poisson: 0, density: → {j2: ▸{young: E, poisson: 0, density:
-⇒ missing key `yield` in `j2` … add `yield: 1`
+{linear_elastic: {young: E, → {j2: ▸{young: E, ⇒ missing key `yield` in `j2` … add `yield: 1`
 {linear_elastic: {young: E, poisson: 0, → {j2: {young: E, poisson: 0, yield: ▸0,
 ⇒ the yield stress is 0, but must be above zero
 linear_elastic: {young: E, poisson: 0 → j2: {young: E, poisson: 0, yield: 1, hardening: ▸"-E"
@@ -35,38 +34,23 @@ linear_elastic: {young: E, poisson: 0 → j2: {young: E, poisson: 0, yield: 1, h
 ⇒ the viscosity is -1, but must not be below zero
 linear_elastic: {young: E, poisson: 0, density: → hencky: {young: E, poisson: ▸0.5, density:
 ⇒ Poisson's ratio is 0.5 … expected a number above -1 and below 0.5
-linear_elastic: {young: E, poisson: 0
-   → drucker_prager: {young: E, poisson: 0, friction: 0.1, dilation: ▸0.3, strength: 1
+@path-drucker-prager
+dilation: 0.1 → dilation: ▸0.4
 ⇒ the coefficient of dilation is above that of friction … does negative work
-linear_elastic: {young: E, poisson: 0
-   → mohr_coulomb: {young: E, poisson: 0, friction_angle: 20, dilation_angle: ▸30, cohesion: 1
-⇒ the dilation angle is above the friction angle
-linear_elastic: {young: E, poisson: 0
-   → mohr_coulomb: {young: E, poisson: 0, friction_angle: ▸90, dilation_angle: 0, cohesion: 1
+@path-mohr-coulomb
+dilation_angle: 10 → dilation_angle: ▸40 ⇒ the dilation angle is above the friction angle
+friction_angle: 30 → friction_angle: ▸90
 ⇒ the friction angle is 90 degrees … at least 0 and less than 90
-linear_elastic: {young: E, poisson: 0
-   → mohr_coulomb: {young: E, poisson: 0, friction_angle: 30, dilation_angle: 0, cohesion: ▸-1
-⇒ the cohesion is -1, but must not be below zero
-linear_elastic: {young: E, poisson: 0
-   → cam_clay: {critical_state_slope: 1.2,\n
-        swelling_slope: ▸0.1, compression_slope: 0.1, poisson: 0.25,\n
-        initial_pressure: 100, preconsolidation: 150
+cohesion: c → cohesion: ▸-1 ⇒ the cohesion is -1, but must not be below zero
+@path-cam-clay-elastic
+swelling_slope: kappa → swelling_slope: ▸0.1
 ⇒ the slope of swelling is not below that of compression … plastic compaction
-linear_elastic: {young: E, poisson: 0
-   → cam_clay: {critical_state_slope: 1.2,\n
-        swelling_slope: 0.02, compression_slope: 0.1, poisson: 0.25,\n
-        initial_pressure: 100, preconsolidation: ▸50
+preconsolidation: 1000 → \n    preconsolidation: ▸50
 ⇒ the preconsolidation pressure is below the initial pressure … outside its yield surface
-linear_elastic: {young: E, poisson: 0
-   → cam_clay: {critical_state_slope: 1.2,\n
-        swelling_slope: 0.02, compression_slope: 0.1, poisson: 0.25,\n
-        initial_pressure: ▸0, preconsolidation: 150
+initial_pressure: p0 → \n    initial_pressure: ▸0
 ⇒ the initial pressure is 0, but must be above zero
-linear_elastic: {young: E, poisson: 0
-   → cam_clay: {critical_state_slope: 1.2,\n
-        swelling_slope: 0.02, compression_slope: 0.1, poisson: ▸0.5,\n
-        initial_pressure: 100, preconsolidation: 150
-⇒ Poisson's ratio is 0.5
+poisson: 0.25 → \n    poisson: ▸0.5 ⇒ Poisson's ratio is 0.5
+@bar
 exact:\n  equation: small_strain\n  displacement: ["v0/omega*mode(X)*sin(omega*t)"]
    → reference:\n  equation: hencky\n
     fem: {element: linear, mass: lumped, cells: 100, dt: "1e-3/omega"}
@@ -128,8 +112,7 @@ until: 1, → until: 2,
 @plastic-wave [▸"front(e1
 # Fronts of any speed satisfy the equation of motion at every point.
 cp: "sqrt(K/rho)" → cp: "0.9*sqrt(K/rho)" ⇒ momentum balance across wave fronts
-cl: "sqrt((K + 4/3*mu)/rho)" → cl: "0.9*sqrt((K + 4/3*mu)/rho)"
-⇒ momentum balance across wave fronts
+"sqrt((K + 4/3*mu)/rho)" → "0.9*sqrt((K + 4/3*mu)/rho)" ⇒ momentum balance across wave fronts
 methods: → methods:\n  - ▸fem: {element: linear, mass: lumped, law: j2}
 of: stress, n → n
 ⇒ the built-in FEM does not support the law `j2`

@@ -45,8 +45,7 @@ neo_hookean: {young → green_naghdi: {young
 ⇒ `volume: averaged` … `plane: stress` … volumetric locking does not occur
 # Parts of a method that cannot be combined.
 @bar - ▸mpm:
-transfer: flip, scheme: [musl, usl] → transfer: [flip, mls], scheme: musl
-⇒ the transfer `mls` … the basis `linear`
+flip, scheme: [musl, usl] → [flip, mls], scheme: musl ⇒ the transfer `mls` … the basis `linear`
 linear, transfer: flip, scheme: [musl, usl]
    → cpgimp, transfer: fmpm_2, scheme: musl, mass: consistent
 ⇒ the transfer `fmpm_2` … is not supported with the mass matrix `consistent`
@@ -72,8 +71,7 @@ dt: 1e-3, i → i
 cells: [6, 12] → cells: 6, dt: [▸auto, 1e-3]
 ⇒ auto
 @tiny-nodal-mass
-dt: "C*h/c" → dt: {courant: C}, ▸alternate: 0.1
-⇒ `alternate` is not supported with an automatic time step
+"C*h/c" → {courant: C}, ▸alternate: 0.1 ⇒ `alternate` is not supported with an automatic time step
 # Precisions of a method in places where they have no effect.
 @single-precision-bar
 precision: [double, single] → precision: ▸singel ⇒ unknown name `singel` … did you mean `single`?

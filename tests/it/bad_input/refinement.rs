@@ -13,8 +13,7 @@ const MISTAKES: &str = r#"
 , dt: 1e-3, instants → , instants
 run: → ▸run:
 ⇒ a run needs a time step … add `dt`, or a list of them to `refine`
-refine: {cells: [6, 12], ppc: 4} → refine: {cells: 6, ppc: 4, ▸dt: [1e-3, 5e-4]}
-⇒ the time step is already stated in `run`
+[6, 12], ppc: 4 → 6, ppc: 4, ▸dt: [1e-3, 5e-4] ⇒ the time step is already stated in `run`
 dt: 1e-3, instants: 50}\nrefine: {cells: [6, 12], ppc: 4}
    → instants: 50}\nrefine: {cells: 6, ppc: 4, ▸dt: 1e-3}
 ⇒ a single time step refines nothing … move it to `run`

@@ -44,8 +44,7 @@ from: [0], to: [4] → from: [0, 0], to: [4, 4]
 from: [-2], to: [8] → from: [-2, -2], to: [8, 8]
 ppc: 2 → ppc: ▸2
 ⇒ not equally spaced
-transfer: [flip, pic, apic] → transfer: [flip, ▸{fmpm: 0}]
-⇒ a series of 0 terms … expected a whole number from 1 to 64
+[flip, pic, apic] → [flip, ▸{fmpm: 0}] ⇒ a series of 0 terms … expected a whole number from 1 to 64
 transfer: [flip, pic, apic] → transfer: [flip, {▸fmpn: 2}] ⇒ fmpn
 frozen: true → frozen: true, ▸every: 2 ⇒ `every` needs a second step length
 frozen: true → frozen: true, alternate: 1, every: ▸1e4 ⇒ expected at most 1000
