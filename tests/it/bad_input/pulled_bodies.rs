@@ -1,7 +1,7 @@
 //! Forces on a set of a body that is not a box: solutions for a wrong volume of the set, and sets
 //! outside the body.
 
-use super::refused;
+use super::{refuse_in, refused};
 use crate::common::valid_suite;
 use rstest::rstest;
 
@@ -71,21 +71,16 @@ fn a_set_may_be_far_larger_than_the_body() {
     valid_suite(&text);
 }
 
-#[rstest]
-#[case::beside_a_disk(
-    DISK,
-    "the set `all` contains no part of the disk",
-    "the body is a disk about (0.1, 0)"
-)]
-#[case::beside_a_triangle(
-    "{polygon: [[-1, -1], [1.05, -1], [-1, 1.05]]}",
-    "the set `all` contains no part of the polygon",
-    "the body is a polygon"
-)]
-fn a_set(#[case] body: &str, #[case] message: &str, #[case] label: &str) {
-    let edits = [(
-        "{all: {box: {from: [-2, -2], to: [2, 2]}}}",
-        "{all: {box: {from: ▸[0.9, 0.9], to: [1, 1]}}}",
-    )];
-    refused(&pulled(2, body, "1"), &edits, &[message, label]);
+#[test]
+fn a_set_beside_the_body_is_refused() {
+    let edit = "all: {box: {from: [-2, -2], to: [2, 2] → all: {box: {from: ▸[0.9, 0.9], to: [1, 1]";
+    for (body, words) in [
+        (DISK, "contains no part of the disk … the body is a disk about (0.1, 0)"),
+        (
+            "{polygon: [[-1, -1], [1.05, -1], [-1, 1.05]]}",
+            "contains no part of the polygon … the body is a polygon",
+        ),
+    ] {
+        refuse_in(&pulled(2, body, "1"), &format!("{edit}\n⇒ the set `all` {words}"));
+    }
 }

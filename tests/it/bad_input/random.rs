@@ -1,4 +1,4 @@
-//! Random typing errors: loading a suite with one changed character never panics.
+//! Random typing errors: loading a suite with changed characters never panics.
 
 use super::load;
 use super::samples::{BAR, FORCE, PLATE};
@@ -25,23 +25,17 @@ fn key() -> impl Strategy<Value = char> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        failure_persistence: None,
+        ..ProptestConfig::with_cases(400)
+    })]
 
     #[test]
-    fn one_slip_never_panics(
+    fn slips_never_panic(
         sound in prop::sample::select(vec![BAR, PLATE, FORCE]),
-        at in any::<usize>(),
-        key in key(),
-        kind in any::<u8>(),
+        slips in vec((any::<usize>(), key(), any::<u8>()), 1..6),
     ) {
-        if let Err(diagnostic) = load(&slip(sound, at, key, kind)) {
-            prop_assert!(diagnostic.to_string().contains("wrong.yaml"));
-        }
-    }
-
-    #[test]
-    fn several_slips_never_panic(slips in vec((any::<usize>(), key(), any::<u8>()), 2..6)) {
-        let wrong = slips.into_iter().fold(BAR.to_owned(), |text, (at, key, kind)| {
+        let wrong = slips.into_iter().fold(sound.to_owned(), |text, (at, key, kind)| {
             slip(&text, at, key, kind)
         });
         if let Err(diagnostic) = load(&wrong) {

@@ -10,7 +10,6 @@ mod hoisted;
 mod language;
 mod limits;
 mod random;
-mod several;
 mod tables;
 
 use mpm_verify::exact::formula::{Expr, Formula, FormulaError, Scope};
