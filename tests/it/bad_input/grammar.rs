@@ -21,7 +21,7 @@ dimension: 1 → dimension: ▸[1] ⇒ expected a finite number or a formula, fo
 suite: bar → ▸suite: bar
 refine: {cells: [6, 12], ppc: 4}\n →
 ⇒ missing key `refine` … add `refine: {cells: [8, 16, 32, 64], ppc: 4}`
-run: {until: 0.5, d → run: ▸{d ⇒ a run needs an end … add `until`
+{until: 0.5, → ▸{ ⇒ a run needs an end … add `until`
 [6, 12] → ▸[] ⇒ an empty list selects nothing … at least one value
 [musl, usl] → ▸[] ⇒ an empty list selects nothing
 ppc: 4 → ppc: 4, ▸ppc: 2 ⇒ the key `ppc` is given twice … the second time

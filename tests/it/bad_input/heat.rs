@@ -96,7 +96,7 @@ mpm: {basis: [linear, cpgimp, quadratic_bspline], transfer: flip, scheme: musl
 mpm: {basis: [linear, cpgimp, quadratic_bspline], transfer: flip, scheme: musl
    → ▸heat: {basis: linear
 ⇒ a `neo_hookean` body moves … use `mpm`
-manufactured:\n  displacement: ["A*sin(pi*X)*sin(w*t)"]\n → manufactured:\n
+displacement: ["A*sin(pi*X)*sin(w*t)"] → # no displacement
 \nmanufactured: → \n▸manufactured:
 ⇒ a body that moves needs a `displacement`
 reference: T0} → reference: T0}\n    - ▸thermal_expansion: {coefficient: 1, reference: 0}

@@ -24,7 +24,7 @@ exact:\n  equation: small_strain\n  displacement: ["v0/omega*mode(X)*sin(omega*t
 {norm: rms} → {norm: rms, within: {from: [15], to: [20]}}
 at: [12.5] → at: ▸[12.5]
 ⇒ the observed point is outside `judge.within` … expected a point in 15 to 20 m
-rho}}\n  boundary: {left: fixed}\n → rho}}\n
+boundary: {left: fixed} → # free ends
 observe: {at: [12.5]}\n →
 {norm: rms} → {norm: rms, within: {from: [▸4.9], to: [20]}}
 ⇒ the box is 4.9 m from the left face, whose condition the solution violates
@@ -50,7 +50,7 @@ observe: {at: [12.5]}\n →
 {norm: rms} → {norm: rms, ▸within: {from: [10], to: [20]}}
 exact:\n  equation: small_strain → manufactured:
 linear_elastic → neo_hookean
-fixed}\n  initial_velocity: ["v0*mode(X)"]\n → fixed}\n
+initial_velocity: ["v0*mode(X)"] → # at rest
 ⇒ `within` needs a motion that is stated under `exact`
 @plate
 boundary: {left: fixed} → boundary: {left: fixed, top: fixed}

@@ -38,7 +38,7 @@ neo_hookean: {young → green_naghdi: {young
 - mpm: {basis: linear, → - ▸mpm: {volume: averaged, basis: linear,
 ⇒ `volume: averaged` … in 1-D … volumetric locking does not occur
 @acoustic-column-finite
-- mpm: {b → - ▸mpm: {volume: averaged, b
+- mpm: { → - ▸mpm: {volume: averaged,
 ⇒ `volume: averaged` is not supported in 1-D: it would average the whole strain
 @plane-stress-wave
 - mpm: {basis: linear, → - ▸mpm: {volume: averaged, basis: linear,
@@ -67,7 +67,7 @@ dt: 1e-3 → dt: auto
 @mpm-bar
 dt: 1e-3 → dt: {courant: ▸0} ⇒ must be above zero
 dt: 1e-3 → dt: {▸currant: 0.5} ⇒ currant … courant
-dt: 1e-3, i → i
+dt: 1e-3, →
 cells: [6, 12] → cells: 6, dt: [▸auto, 1e-3]
 ⇒ auto
 @tiny-nodal-mass

@@ -102,7 +102,7 @@ run: → ▸reference: {same_method: {cells: 32}}\njudge: {of: stress}\nrun:
    … judge the displacement or the velocity
 run: → reference: {▸same_method: {cells: 32}}\nrun:
 {box: {from: [0, 0], to: [1, 0.5]}} → {disk: {centre: [0, 0], radius: 1}}
-1}}\n  boundary: {left: fixed}\n → 1}}\n
+boundary: {left: fixed} → # a free rim
 exact:\n  equation: small_strain\n  displacement: ["sin(pi*X/2)*sin(omega*t)/omega", 0]\n →
 parameters:\n  omega: "5*pi"\n →
 ⇒ regular particles of a single box, but the scene has a body of kind `disk`

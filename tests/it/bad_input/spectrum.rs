@@ -41,7 +41,7 @@ basis: linear → basis: cubic_bspline
 ⇒ where a sine of 2 cells is 0
 [0.4] → [0.4, ▸1e-9] ⇒ a wave of 8 cells needs 1.6e11 steps … at most 1e6 steps
 [0.4] → [▸1.5e-4] ⇒ a wave of 8 cells needs 1.1e6 steps
-1\n  body: {box: {from: [0], to: [16]}}\n → 1\n
+body: {box: {from: [0], to: [16]}} → # two bodies
 material: {linear_elastic: {young: 1, poisson: 0, density: 1}}\n
     boundary: {left: periodic, right: periodic
    → bodies:\n    ▸- {body: {box: {from: [0], to: [8]}}, material: {linear_elastic: {young: 1,
@@ -52,8 +52,8 @@ material: {linear_elastic: {young: 1, poisson: 0, density: 1}}\n
 {linear_elastic: → ▸{neo_hookean: ⇒ a spectrum study needs a linear law: `linear_elastic`
 {left: periodic, right: periodic} → ▸{left: fixed, right: fixed}
 ⇒ a spectrum study needs periodic faces
-\n  boundary: {left: periodic, right: periodic} →
-scene:\n  d → scene:\n  ▸d
+boundary: {left: periodic, right: periodic} → # free faces
+dimension: → ▸dimension:
 ⇒ a spectrum study needs periodic faces
 dimension: 1 → dimension: ▸2
 from: [0], to: [16] → from: [0, 0], to: [16, 16]
@@ -71,7 +71,7 @@ wavelength: [8, 16] → wavelength: ▸2
    … the symbol s of the mass of `mpm-linear-flip-usl` is 0
 particles: →   loads:\n    ▸- gravity: [-1]\nparticles:
 ⇒ a spectrum study needs a body without loads
-scene:\n  d → scene:\n  ▸d
+dimension: → ▸dimension:
 particles: →   initial_velocity: [1]\nparticles:
 ⇒ a spectrum study needs a body at rest
 basis: linear, transfer: flip → basis: quadratic_bspline, transfer: ▸tls

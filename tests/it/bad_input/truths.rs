@@ -24,7 +24,7 @@ const VIOLATIONS: &str = r#"
 ["v0/omega*mode(X)*sin(omega*t)"] → [▸"v0/omega/1.1*mode(X)*sin(1.1*omega*t)"]
 ⇒ equation of motion in X, rho0 u_tt = Div P + rho0 b … N/m3 (off by
 young: E → young: "1.1*E" ⇒ equation of motion in X, rho0 u_tt = Div P + rho0 b
-rho}}\n  boundary: {left: fixed}\n → rho}}\n
+boundary: {left: fixed} → # free ends
 ⇒ boundary condition: left is free, traction in X … X = (0.000000) … expected 0.000000e0
    … Pa (off by
 {left: fixed} → {left: fixed, right: fixed}
@@ -55,7 +55,7 @@ max(tau, 0)^2" → max(tau, 0)^2 - max(tau - 0.2, 0)"
 const MISTAKES: &str = r#"
 @bar
 ["v0/omega*mode(X)*sin(omega*t)"] → [▸0]
-fixed}\n  initial_velocity: ["v0*mode(X)"]\n → fixed}\n
+initial_velocity: ["v0*mode(X)"] → # at rest
 ⇒ the displacement is zero everywhere, for example at X = ( … found 0.000000e0 m
 ["v0/omega*mode(X)*sin(omega*t)"] → [▸"v0/omega*mode(X)*sin(omega*t)*sqrt(0.4 - t)"]
 ⇒ the displacement is not finite at X = ( … t = 0.4 … found NaN m
