@@ -12,10 +12,6 @@ const MISTAKES: &str = r#"
 @bar
 until: → ▸untill: ⇒ unknown key `untill` … did you mean `until`?
 judge: → ▸judges: ⇒ unknown key `judges` … did you mean `judge`?
-cells: [6, 12] → cells: ▸{a: 1} ⇒ expected a finite number or a formula, found a map
-dimension: 1 → dimension: ▸[1] ⇒ expected a finite number or a formula, found a list
-["v0/omega*mode(X)*sin(omega*t)"] → ▸"v0/omega*mode(X)*sin(omega*t)"
-⇒ expected a list, found the string
 {young: E, poisson: 0, density: rho} → ▸{young: E, poisson: 0}
 ⇒ missing key `density` in `linear_elastic` … add `density: 1` in `linear_elastic`
 suite: bar → ▸suite: bar
@@ -23,14 +19,7 @@ refine: {cells: [6, 12], ppc: 4}\n →
 ⇒ missing key `refine` … add `refine: {cells: [8, 16, 32, 64], ppc: 4}`
 {until: 0.5, → ▸{ ⇒ a run needs an end … add `until`
 [6, 12] → ▸[] ⇒ an empty list selects nothing … at least one value
-[musl, usl] → ▸[] ⇒ an empty list selects nothing
-ppc: 4 → ppc: 4, ▸ppc: 2 ⇒ the key `ppc` is given twice … the second time
-rho: 1 → rho: 1\n  ▸E: 2 ⇒ the key `E` is given twice
-scene:\n  dimension → scene:\n▸	dimension ⇒ tab used for indentation; YAML needs spaces
-poisson: 0 → poisson: ▸.nan ⇒ expected a finite number, found NaN
-until: 0.5 → until: ▸.inf ⇒ expected a finite number, found infinity
 basis: linear → basis: ▸liner ⇒ unknown name `liner` … did you mean `linear`?
-[musl, usl] → [▸mulsl, usl] ⇒ unknown name `mulsl` … did you mean `musl`?
 - fem: → - ▸fme: ⇒ unknown name `fme` … did you mean `fem`?
 suite: bar → suite: bar\nstudy: ▸convergance
 ⇒ unknown name `convergance` … did you mean `convergence`?

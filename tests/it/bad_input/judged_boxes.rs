@@ -25,21 +25,17 @@ exact:\n  equation: small_strain\n  displacement: ["v0/omega*mode(X)*sin(omega*t
 at: [12.5] → at: ▸[12.5]
 ⇒ the observed point is outside `judge.within` … expected a point in 15 to 20 m
 boundary: {left: fixed} → # free ends
-observe: {at: [12.5]}\n →
 {norm: rms} → {norm: rms, within: {from: [▸4.9], to: [20]}}
 ⇒ the box is 4.9 m from the left face, whose condition the solution violates
    … an elastic wave from this face travels 5 m in 0.5 s at 10 m/s
    … expected a distance of at least 5 m … shorten the run, or move the box away from the face
 {left: fixed} → {left: fixed, right: fixed}
 [L + 5] → [L]
-observe: {at: [12.5]}\n →
 {norm: rms} → {norm: rms, within: {from: [1], to: [▸21]}}
 ⇒ the box is 4 m from the right face … travels 5 m
-observe: {at: [12.5]}\n →
 {norm: rms} → {norm: rms, within: {from: [10], to: [15]}}
 ["v0/omega*mode(X)*sin(omega*t)"] → [▸"v0/omega/1.1*mode(X)*sin(1.1*omega*t)"]
 ⇒ equation of motion in X … is violated
-observe: {at: [12.5]}\n →
 {norm: rms} → {norm: rms, within: {from: [10], to: [15]}}
 ["v0*mode(X)"] → ["2*v0*mode(X)"]
 ["v0/omega* → [▸"v0/omega*

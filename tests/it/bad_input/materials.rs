@@ -15,9 +15,6 @@ const MISTAKES: &str = r#"
 @bar
 linear_elastic → ▸linear_elastik ⇒ unknown name `linear_elastik` … did you mean `linear_elastic`?
 linear_elastic → ▸rubber ⇒ unknown name `rubber` … j2
-{linear_elastic: {young: E, poisson: 0, density: rho
-   → ▸{hencky: {young: E, poisson: 0, density: rho}, j2: {
-⇒ one name with its settings is expected here, found none or several
 linear_elastic: {young: E, poisson: 0, density: rho
    → newtonian: {bulk: E, viscosity: 0, density: rho, ▸poisson: 0
 ⇒ unknown key `poisson` … bulk

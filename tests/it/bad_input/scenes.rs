@@ -1,4 +1,4 @@
-//! Bodies, grids, loads, references and the observed point.
+//! Bodies, planes, grids, loads, references and the observed point.
 
 use super::refuse_all;
 
