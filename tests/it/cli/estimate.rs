@@ -3,8 +3,6 @@
 use super::{BAD_INPUT, FAILED, Folder, SOUND};
 use approx::assert_relative_eq;
 use serde_json::{Value, json};
-use std::io::Write;
-use std::process::Stdio;
 
 /// `1 + h + h^2` with six decimals.
 const SERIES: &str = "h,u\n1,3.000000\n0.5,1.750000\n0.25,1.312500\n0.125,1.140625\n";
@@ -16,31 +14,18 @@ const TEXT: &str = "  series   4 levels
 ";
 
 #[test]
-fn a_series_has_an_order_and_a_limit() {
+fn a_series_in_a_file_or_at_standard_input_has_an_order_and_a_limit() {
     let folder = Folder::with("series.csv", SERIES);
     assert_eq!(folder.accepted(&["estimate", "series.csv"]), TEXT);
-}
-
-#[test]
-fn standard_input_is_a_series() {
     for arguments in [&["estimate"][..], &["estimate", "-"]] {
-        let folder = Folder::new();
-        let mut command = folder.command(arguments);
-        let mut process =
-            command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("the program");
-        let mut input = process.stdin.take().expect("a pipe");
-        input.write_all(SERIES.as_bytes()).expect("an open pipe");
-        drop(input);
-        let output = process.wait_with_output().expect("an end");
-        assert_eq!(String::from_utf8_lossy(&output.stdout), TEXT);
+        assert_eq!(folder.call_with_input(arguments, SERIES).ended(SOUND).out, TEXT);
     }
 }
 
 #[test]
 fn json_has_the_intervals() {
     let folder = Folder::with("series.csv", SERIES);
-    let out = folder.accepted(&["estimate", "series.csv", "--format", "json"]);
-    let document: Value = serde_json::from_str(&out).expect("JSON");
+    let document = folder.call(&["estimate", "series.csv", "--format", "json"]).ended(SOUND).json();
     // The limits of the triples are 1.3125 - 0.4375 7/13 and 1.140625 - 0.171875 11/17, and the
     // orders are log2(20/7) and log2(28/11).
     let (coarse, limit) = (1.3125 - 0.4375 * 7.0 / 13.0, 1.140_625 - 0.171_875 * 11.0 / 17.0);
@@ -66,8 +51,7 @@ fn a_series_without_a_limit_is_refused_with_the_reason() {
     series   4 levels
     refused  oscillation: the changes between the finest levels alternate in sign
     ");
-    let answer = folder.call(&["estimate", "series", "--format", "json"]).ended(FAILED);
-    let document: Value = serde_json::from_str(&answer.out).expect("JSON");
+    let document = folder.call(&["estimate", "series", "--format", "json"]).ended(FAILED).json();
     assert_eq!(document["refusal"]["reason"], "oscillation");
     assert_eq!(document["estimate"], Value::Null);
 }

@@ -1,6 +1,6 @@
 //! `explain`: the problem, its source, and the expectations with their reasons.
 
-use super::{BAR, Folder, SOUND, assert_contains, refusals};
+use super::{BAR, Folder, SOUND, assert_contains};
 use crate::common::folder::flat;
 use rstest::rstest;
 
@@ -25,8 +25,23 @@ use rstest::rstest;
     "mpm-linear\n  expected: agrees with the prediction within 1e-14\n  because: the gradients",
 ])]
 #[case::a_study_of_stability("courant-limit", &["mpm-linear-flip-usl\n  expected: predictions confirmed by runs; the limit 1/sqrt(2 - short) within"])]
-fn a_suite_that_is_built_in(#[case] name: &str, #[case] words: &[&str]) {
-    let out = flat(&Folder::new().accepted(&["explain", name]));
+#[case::without_a_force("set-force --without force", &[
+    "effects           body_force, force\n",
+    "a step            P2G(mass, force), acceleration, G2P(particle velocity), P2G(momentum),\n",
+    "particle visits   p2g mass, p2g momentum, p2g internal force, p2g point force at 20 of 16",
+    "force share 16 at 4 of 16\n",
+    "without           `force` these lines change:\n",
+    "    becomes         body_force\n",
+])]
+#[case::without_contact("two-bar-impact --without contact", &[
+    "effects           contact\n", "`contact` these lines change:", "p2g mass gradient",
+])]
+#[case::without_an_unused_effect("set-force --without gravity", &[
+    "`gravity` is not used, so nothing changes"
+])]
+fn a_suite_that_is_built_in(#[case] arguments: &str, #[case] words: &[&str]) {
+    let arguments: Vec<&str> = ["explain"].into_iter().chain(arguments.split(' ')).collect();
+    let out = flat(&Folder::new().accepted(&arguments));
     let words: Vec<String> = words.iter().map(|words| flat(words)).collect();
     assert_contains(&out, &words.iter().map(String::as_str).collect::<Vec<_>>());
 }
@@ -83,41 +98,9 @@ fn local_suite_is_explained() {
 }
 
 #[test]
-fn cost_of_a_step_is_shown_with_and_without_an_effect() {
-    let out = Folder::new().accepted(&["explain", "set-force", "--without", "force"]);
-    assert_contains(
-        &out,
-        &[
-            "effects           body_force, force\n",
-            "a step            P2G(mass, force), acceleration, G2P(particle velocity), P2G(momentum),\n",
-            "particle visits   p2g mass, p2g momentum, p2g internal force, p2g point force at 20 of 16",
-            "force share 16 at 4 of 16\n",
-            "without           `force` these lines change:\n",
-            "    becomes         body_force\n",
-        ],
-    );
-}
-
-#[test]
-fn contact_can_be_removed() {
-    let found = Folder::new().call(&["explain", "two-bar-impact", "--without", "contact"]);
-    for words in
-        ["effects           contact\n", "`contact` these lines change:", "p2g mass gradient"]
-    {
-        assert_contains(&found.out, &[words]);
-    }
-}
-
-#[test]
-fn removing_an_unused_effect_changes_nothing() {
-    let found = Folder::new().call(&["explain", "set-force", "--without", "gravity"]);
-    assert_contains(&found.out, &["`gravity` is not used, so nothing changes"]);
-}
-
-#[test]
 fn an_unknown_effect_is_refused_with_a_hint() {
-    let calls = ["explain set-force --without gravty", "explain set-force --without colour"];
-    let text = refusals(&Folder::new(), &calls);
-    let hints = ["did you mean `gravity`?", "help: known effects: gravity, body_force,"];
-    assert_contains(&text, &["--without gravty: there is no such effect", hints[0], hints[1]]);
+    let refused = |effect| Folder::new().refused(&["explain", "set-force", "--without", effect]);
+    let words = ["--without gravty: there is no such effect", "did you mean `gravity`?"];
+    assert_contains(&refused("gravty"), &words);
+    assert_contains(&refused("colour"), &["help: known effects: gravity, body_force,"]);
 }

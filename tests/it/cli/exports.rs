@@ -1,7 +1,7 @@
-//! `run --format csv`, `--format latex`, `--junit` and the files of `--out`: results for papers,
-//! spreadsheets and continuous integration.
+//! `run --format latex`, `--junit` and the files of `--out`, and the figures of `cost`: results for
+//! papers and continuous integration.
 
-use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND};
+use super::{BAR, FAILED, Folder, SOUND};
 use rstest::rstest;
 
 /// XML forbids U+FFFE and U+FFFF, which JSON allows in the answer of a solver.
@@ -20,15 +20,6 @@ while read -r m; do echo '{"type":"cannot","reason":"no \ufffe, no \uffff, no \u
     assert!(is_timed && suite.timestamp == report.timestamp, "{xml}");
     assert!(xml.contains("no \u{fffd}, no \u{fffd}, no "), "{xml}");
     assert!(!xml.contains(['\u{1}', '\u{fffe}', '\u{ffff}']), "{xml}");
-}
-
-#[test]
-fn files_that_cannot_be_written_are_named_before_the_run() {
-    let folder = Folder::with("bar.yaml", BAR);
-    folder.write("folder/file", "");
-    let answer = folder.call(&["run", "bar.yaml", "--junit", "folder"]).ended(BAD_INPUT);
-    insta::assert_snapshot!(answer.errors, @"error: --junit folder: this is a folder");
-    assert_eq!(answer.out, "");
 }
 
 #[test]
@@ -83,4 +74,19 @@ fn invalid_labels_are_refused(#[case] options: &str, #[case] error: &str) {
     let options: Vec<&str> = options.split('|').collect();
     let errors = folder.refused(&[&["run", "bar.yaml"], &options[..]].concat());
     assert_eq!(errors.lines().next(), Some(error), "{errors}");
+}
+
+/// With twice the stable time step a method fails. Its levels must still be in the table.
+#[test]
+fn failed_level_has_a_row_in_the_costs() {
+    let folder = Folder::with(
+        "bar.yaml",
+        BAR.replace("until: 0.05, dt: 1e-3", "until: 4, dt: \"0.16*h\", instants: 1"),
+    );
+    let out = folder.accepted(&["cost", "bar.yaml", "--figures", "figures"]);
+    let broken = out.lines().filter(|line| line.split_whitespace().any(|w| w == "failed"));
+    assert!(broken.count() > 0, "{out}");
+    let figure = folder.read("figures/short-bar-work-transfers.svg");
+    assert!(figure.contains("failed or not finite"));
+    assert!(folder.files("figures").contains(&"short-bar-work-seconds.svg".to_owned()));
 }

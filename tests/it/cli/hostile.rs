@@ -3,32 +3,21 @@
 use super::{BAD_INPUT, Folder, assert_contains};
 use rstest::rstest;
 
-#[rstest]
-#[case::fifty_megabytes("a".repeat(50_000_000).into_bytes(), "the file is too large: 48829 KiB, at most 64 KiB")]
-#[case::deep_nesting("[".repeat(60_000).into_bytes(), "lists and maps nest more than 64 deep")]
-#[case::an_alias_bomb(
-    b"a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n".to_vec(),
-    "anchors and aliases are not supported"
-)]
-#[case::not_text(b"suite: \xff\xfe\n".to_vec(), "the file is not UTF-8 text: byte 7 does not fit")]
-#[case::nothing(Vec::new(), "the file is empty; a suite starts with `suite: NAME`")]
-fn a_file_of(#[case] bytes: Vec<u8>, #[case] message: &str) {
-    let folder = Folder::with("bad.yaml", bytes);
+/// The tests of the YAML reader state the messages of other files.
+#[test]
+fn unreadable_file_is_refused_by_every_command() {
+    let folder = Folder::with("bad.yaml", vec![b'a'; 50_000_000]);
+    folder.write("suites/bad.yaml/notes.txt", "");
     for command in ["check", "run", "list", "explain"] {
-        refused(&folder, &[command, "bad.yaml"], &[message, "bad.yaml"]);
+        for (file, message) in [
+            ("bad.yaml", "the file is too large: 48829 KiB, at most 64 KiB"),
+            ("suites", "this is a folder, not a suite file"),
+            ("missing.yaml", "there is no such file"),
+        ] {
+            let name = if file == "suites" { "bad.yaml" } else { file };
+            refused(&folder, &[command, file], &[message, name]);
+        }
     }
-}
-
-#[test]
-fn folder_in_place_of_a_file_is_refused() {
-    let folder = Folder::with("suites/bad.yaml/notes.txt", "");
-    refused(&folder, &["check", "suites"], &["this is a folder, not a suite file", "bad.yaml"]);
-}
-
-#[test]
-fn missing_file_is_refused() {
-    let words = ["there is no such file", "missing.yaml"];
-    refused(&Folder::new(), &["run", "missing.yaml"], &words);
 }
 
 /// Asserts exit status 2, an error message and no output.
@@ -38,7 +27,6 @@ fn refused(folder: &Folder, arguments: &[&str], words: &[&str]) {
     assert_contains(&found.errors, words);
 }
 
-/// Creates a sound suite without expectations.
 fn exploring() -> String {
     super::BAR[..super::BAR.find("expect:").expect("expectations")].to_owned()
 }
@@ -77,17 +65,11 @@ fn arguments_that_are_not_utf8_do_not_panic(
 
 /// Characters that YAML does not treat as spaces are reported at their position.
 #[rstest]
-#[case::no_break_space("young:\u{a0}100", "character U+00A0 is not allowed")]
-#[case::no_break_space_as_indentation("\n\u{a0}young: 100", "character U+00A0 is not allowed")]
-#[case::zero_width_space("you\u{200b}ng: 100", "character U+200B is not allowed")]
-#[case::decimal_comma("young: 0,05", "unknown key `05`")]
-fn invisible_character_is_named(#[case] entry: &str, #[case] message: &str) {
-    let text = exploring().replace("young: 100", entry);
-    let folder = Folder::with("bad.yaml", text);
-    let parts: &[&str] = if entry.contains(',') {
-        &[message, "a decimal point"]
-    } else {
-        &[message, "an invisible character"]
-    };
-    refused(&folder, &["check", "bad.yaml"], parts);
+#[case::no_break_space("young:\u{a0}100", "U+00A0 is not allowed", "an invisible character")]
+#[case::indentation("\n\u{a0}young: 100", "U+00A0 is not allowed", "an invisible character")]
+#[case::zero_width("you\u{200b}ng: 100", "U+200B is not allowed", "an invisible character")]
+#[case::decimal_comma("young: 0,05", "unknown key `05`", "a decimal point")]
+fn invisible_character_is_named(#[case] entry: &str, #[case] message: &str, #[case] help: &str) {
+    let folder = Folder::with("bad.yaml", exploring().replace("young: 100", entry));
+    refused(&folder, &["check", "bad.yaml"], &[message, help]);
 }

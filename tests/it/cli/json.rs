@@ -12,8 +12,8 @@ fn list(value: &Value) -> &[Value] {
 
 /// Returns the document of a run. It must have exactly the keys of the schema.
 fn document(folder: &Folder, targets: &[&str], code: i32) -> Value {
-    let found = folder.call(&[&["run", "--format", "json"], targets].concat()).ended(code);
-    let document = serde_json::from_str(&found.out).expect("one document");
+    let run = [&["run", "--format", "json"], targets].concat();
+    let document = folder.call(&run).ended(code).json();
     assert_eq!(JsonSchema::new(&report_schema()).refusal(&document), None);
     document
 }
@@ -63,8 +63,8 @@ fn every_command_prints_one_document(
     #[case] wanted: &Value,
 ) {
     let folder = Folder::with("bar.yaml", BAR);
-    let found = folder.call(&[arguments, &["--format", "json"]].concat()).ended(SOUND);
-    let document: Value = serde_json::from_str(&found.out).expect("one document");
+    let arguments = [arguments, &["--format", "json"]].concat();
+    let document = folder.call(&arguments).ended(SOUND).json();
     assert_eq!(document.pointer(place), Some(wanted), "{document:#}");
 }
 
@@ -73,7 +73,7 @@ fn document_of_check_contains_the_errors() {
     let folder = Folder::with("bad.yaml", mistaken());
     let found = folder.call(&["check", "bad.yaml", "--format", "json"]);
     assert_eq!((found.code, found.errors.as_str()), (BAD_INPUT, ""));
-    let document: Value = serde_json::from_str(&found.out).expect("one document");
+    let document = found.json();
     let diagnostic = &document["suites"][0]["diagnostics"][0];
     let wanted = json!({
         "severity": "error", "file": "bad.yaml", "line": 9, "column": 3,

@@ -3,7 +3,6 @@
 mod arguments;
 mod check;
 mod compare;
-mod cost;
 mod estimate;
 mod explain;
 mod explore;
@@ -74,16 +73,14 @@ pub(crate) fn on_one_grid(suite: &str) -> String {
     suite.replace("[4, 6, 8, 12]", "[4]")
 }
 
-/// Returns the messages of refused calls, each below its arguments.
-pub(crate) fn refusals(folder: &Folder, calls: &[&str]) -> String {
-    let mut text = String::new();
-    for call in calls {
+/// Asserts the messages of refused calls, each below `$ ` and its arguments.
+pub(crate) fn assert_refusals(folder: &Folder, expected: &str) {
+    for (call, message) in expected.split("\n$ ").filter_map(|call| call.split_once('\n')) {
         let arguments = shlex::split(call).expect("arguments");
         let errors = folder.refused(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
         let lines = errors.lines().filter(|line| !line.is_empty() && !line.starts_with("For more"));
-        text += &format!("{call}\n{}\n", lines.collect::<Vec<_>>().join("\n"));
+        assert_eq!(lines.collect::<Vec<_>>().join("\n"), message.trim_end(), "{call}");
     }
-    text
 }
 
 /// Creates a [`BAR`] with an expectation that it does not meet.
@@ -101,10 +98,8 @@ fn built_in_suites_are_listed_without_a_folder() {
     let folder = Folder::new();
     let out = folder.accepted(&["list"]);
     assert!(out.lines().count() <= 40, "{out}");
-    assert_contains(
-        &out,
-        &["\nthe-talk                          14 suites    61 cases\n", "\nnext: "],
-    );
+    let parts = ["\nthe-talk                          14 suites    61 cases\n", "\nnext: "];
+    assert_contains(&out, &parts);
     let out = folder.accepted(&["list", "--cases"]);
     for line in ["oedometer: Oedometer at large strain", "  mpm-linear-flip-usl-vs-exact"] {
         assert!(out.lines().any(|found| found == line), "{out}");
@@ -181,13 +176,13 @@ fn built_in_suites_have_no_errors_or_warnings() {
 }
 
 #[test]
-fn misspelt_name_gets_a_suggestion() {
+fn misspelt_name_gets_a_suggestion_and_an_empty_folder_is_refused() {
+    let folder = Folder::with("empty/notes.txt", "nothing");
     for command in ["list", "check", "explain", "run", "cost"] {
-        let errors = Folder::new().refused(&[command, "odometer"]);
-        assert_contains(
-            &errors,
-            &["there is no suite called `odometer`", "did you mean `oedometer`?"],
-        );
+        let words = ["there is no suite called `odometer`", "did you mean `oedometer`?"];
+        assert_contains(&folder.refused(&[command, "odometer"]), &words);
+        let errors = folder.refused(&[command, "empty"]);
+        assert_contains(&errors, &["this folder contains no suite"]);
     }
 }
 
@@ -199,6 +194,7 @@ fn misspelt_name_gets_a_suggestion() {
     "did you mean `verification/short-bar.yaml`?"
 )]
 #[case::a_file_that_is_built_in("oedometre.yaml", "did you mean the suite `oedometer`?")]
+#[case::none("zzz", "`mpm-verify list` shows the ")]
 fn existing_suites_are_suggested(#[case] name: &str, #[case] help: &str) {
     let folder = Folder::with("verification/short-bar.yaml", BAR);
     let errors = folder.refused(&["check", name]);
@@ -227,34 +223,5 @@ fn more_similar_suite_is_suggested_instead_of_a_command() {
     error: there is no suite called `cheks`
     --> cheks
      = help: did you mean `checks`?
-    ");
-}
-
-#[test]
-fn unknown_name_gets_a_hint_to_list() {
-    let found = Folder::new().call(&["check", "zzz"]).ended(BAD_INPUT);
-    assert_contains(&found.errors, &["`mpm-verify list` shows the "]);
-}
-
-#[test]
-fn a_folder_without_a_suite_is_an_error() {
-    let folder = Folder::with("empty/notes.txt", "nothing");
-    for command in ["list", "check", "explain", "run", "cost"] {
-        let errors = folder.refused(&[command, "empty"]);
-        assert_contains(&errors, &["this folder contains no suite"]);
-    }
-}
-
-#[test]
-fn an_unknown_option_is_an_error() {
-    let errors = Folder::new().refused(&["run", "--colour"]);
-    insta::assert_snapshot!(errors, @"
-    error: unexpected argument '--colour' found
-
-      tip: a similar argument exists: '--color'
-
-    Usage: mpm-verify run --color <WHEN> [SUITE]...
-
-    For more information, try '--help'.
     ");
 }

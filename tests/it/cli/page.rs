@@ -89,17 +89,3 @@ fn a_page_of_chosen_cases_has_the_files_of_their_suites() {
     assert!(page.contains("<details id=\"yaml-other-bar\"><summary>b.yaml</summary>"));
     assert!(!page.contains("a.yaml"));
 }
-
-#[test]
-fn unwritable_page_is_refused_before_the_run() {
-    let folder = Folder::with("file", "in the way");
-    for place in ["file/page.html", "."] {
-        let errors = folder.refused(&["run", "grid-crossing", "--html", place]);
-        let words = format!("error: --html {place}: ");
-        assert!(errors.starts_with(&words), "{errors}");
-    }
-    folder.write("a.yaml", BAR);
-    folder.write("b.yaml", BAR);
-    let errors = folder.refused(&["run", "a.yaml", "b.yaml", "--html", "page.html"]);
-    insta::assert_snapshot!(errors, @"error: --html: two suites have the name `short-bar` and would share one section");
-}

@@ -3,9 +3,7 @@
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use rstest::rstest;
 use std::fs;
-use std::io::Write;
 use std::path::PathBuf;
-use std::process::Stdio;
 
 /// Creates six suites, which are too many for full reports. The last one has an expectation that
 /// fails.
@@ -26,10 +24,8 @@ fn a_run_of_many_suites_prints_a_line_for_each_and_the_failures() {
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
     let results = found.out.lines().filter(|line| line.starts_with("  result  ")).count();
     assert_eq!(results, 2, "two cases of one suite\n{}", found.out);
-    assert_contains(
-        &found.out,
-        &["  bar-1          2.01..2.02  2 pass\n", "ambitious-bar: Short bar\n", "  FAIL "],
-    );
+    let parts = ["  bar-1          2.01..2.02  2 pass\n", "ambitious-bar: Short bar\n", "  FAIL "];
+    assert_contains(&found.out, &parts);
     assert!(
         found.out.ends_with(
             "\n6 suites, 12 cases: 10 pass, 2 FAIL\nnext: mpm-verify diagnose \
@@ -41,10 +37,8 @@ fn a_run_of_many_suites_prints_a_line_for_each_and_the_failures() {
     let written = folder.call(&["--out", "results"]).out;
     assert_contains(&written, &["\nwrote results\n6 suites, "]);
     let matrix = folder.call(&["run", "--overview"]).out;
-    assert_contains(
-        &matrix,
-        &["\n  suite                            findings by basis\nbars\n  bar-1  "],
-    );
+    let parts = ["\n  suite                            findings by basis\nbars\n  bar-1  "];
+    assert_contains(&matrix, &parts);
 }
 
 /// The commands of the last lines are valid.
@@ -167,19 +161,6 @@ fn groups_and_patterns_select_built_in_suites_without_a_folder() {
     assert!(fitting.code == SOUND && fitting.out.starts_with("heat-mms: "), "{}", fitting.out);
 }
 
-/// Returns exit status, standard output and standard error of the program that reads `input`.
-fn fed(folder: &Folder, arguments: &[&str], input: &str) -> (Option<i32>, String, String) {
-    let mut command = folder.command(arguments);
-    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = command.spawn().expect("the program starts");
-    let mut pipe = child.stdin.take().expect("a pipe");
-    pipe.write_all(input.as_bytes()).expect("a reader");
-    drop(pipe);
-    let output = child.wait_with_output().expect("an end");
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    (output.status.code(), text(output.stdout), text(output.stderr))
-}
-
 #[rstest]
 #[case(&["run", "-"], "  fem-linear-lumped  ")]
 #[case(&["-"], "  fem-linear-lumped  ")]
@@ -188,30 +169,18 @@ fn fed(folder: &Folder, arguments: &[&str], input: &str) -> (Option<i32>, String
 #[case(&["propose", "-"], "# short-bar")]
 #[case(&["problem", "-"], "\n")]
 fn suite_is_read_from_standard_input(#[case] arguments: &[&str], #[case] words: &str) {
-    let (code, out, errors) = fed(&Folder::new(), arguments, BAR);
-    assert_eq!(code, Some(SOUND), "{errors}");
-    assert_contains(&out, &[words]);
+    let found = Folder::new().call_with_input(arguments, BAR).ended(SOUND);
+    assert_contains(&found.out, &[words]);
 }
 
 #[test]
 fn standard_input_has_a_name_and_a_limit() {
-    let folder = Folder::new();
-    let (code, _, errors) = fed(&folder, &["check", "-"], &super::mistaken());
-    assert_eq!(code, Some(BAD_INPUT));
-    insta::assert_snapshot!(errors, @"
-    error: unknown key `dimensions`
-     --> <stdin>:9:3
-      |
-    9 |   dimensions: 1
-      |   ^^^^^^^^^^ not a known key
-      |
-      = help: did you mean `dimension`?
-    1 error
-    ");
+    let check =
+        |input: &str| Folder::new().call_with_input(&["check", "-"], input).ended(BAD_INPUT).errors;
+    let errors = check(&super::mistaken());
+    assert!(errors.starts_with("error: unknown key `dimensions`\n --> <stdin>:9:3\n"), "{errors}");
     // The input is short enough for a pipe whose reader stops early.
-    let (code, _, errors) = fed(&folder, &["check", "-"], &"a".repeat(65 * 1024));
-    assert_eq!(code, Some(BAD_INPUT));
-    insta::assert_snapshot!(errors, @"
+    insta::assert_snapshot!(check(&"a".repeat(65 * 1024)), @"
     error: the file is too large: at most 64 KiB
     --> <stdin>
     1 error
@@ -238,54 +207,33 @@ fn colours_are_for_terminals_or_on_request() {
 
 /// `/dev/full` refuses every byte.
 #[cfg(target_os = "linux")]
-#[rstest]
-#[case(&["--help"])]
-#[case(&["--version"])]
-#[case(&["run", "bar.yaml"])]
-#[case(&["run", "--format", "json", "bar.yaml"])]
-#[case(&["merge", "--from", ".", "bar.yaml"])]
-#[case(&["new", "another"])]
-#[case(&["list", "bar.yaml"])]
-#[case(&["check", "bar.yaml"])]
-#[case(&["explain", "bar.yaml"])]
-#[case(&["propose", "bar.yaml"])]
-#[case(&["diagnose", "bar.yaml", "--case", "mpm", "--budget", "1s"])]
-#[case(&["schema", "protocol"])]
-#[case(&["steps", "bar.yaml"])]
-#[case(&["problem", "bar.yaml"])]
-#[case(&["cost", "bar.yaml"])]
-#[case(&["compare", "report.json", "report.json"])]
-#[case(&["completions", "fish"])]
-#[case(&["man"])]
-fn unwritable_output_is_an_error(#[case] arguments: &[&str]) {
+#[test]
+fn unwritable_output_is_an_error() {
+    let calls = "--help|--version|run bar.yaml|run --format json bar.yaml|man|completions fish|\
+                 merge --from . bar.yaml|new another|list bar.yaml|check bar.yaml|steps bar.yaml|\
+                 explain bar.yaml|propose bar.yaml|diagnose bar.yaml --case mpm --budget 1s|\
+                 schema protocol|problem bar.yaml|cost bar.yaml|compare report.json report.json";
     let folder = Folder::with("bar.yaml", BAR);
     folder.write("report.json", r#"{"suites": []}"#);
-    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a device");
-    let mut command = folder.command(arguments);
-    let output = command.stdout(full).output().expect("the program starts");
-    let errors = String::from_utf8(output.stderr).expect("UTF-8");
-    assert_eq!(output.status.code(), Some(BAD_INPUT), "{errors}");
-    let message = "error: standard output cannot be written: No space left on device";
-    assert_contains(&errors, &[message]);
+    for call in calls.split('|') {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("a device");
+        let mut command = folder.command(&call.split(' ').collect::<Vec<_>>());
+        let output = command.stdout(full).output().expect("the program starts");
+        let errors = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(BAD_INPUT), "{call}: {errors}");
+        let message = "error: standard output cannot be written: No space left on device";
+        assert_contains(&errors, &[message]);
+    }
 }
 
 #[rstest]
-#[case("bash", "complete -F _mpm")]
-#[case("zsh", "#compdef mpm-verify")]
-#[case("fish", "complete -c mpm-verify")]
-fn completion_scripts_contain_the_commands(#[case] shell: &str, #[case] words: &str) {
-    let found = Folder::new().call(&["completions", shell]);
-    assert!(found.code == SOUND && found.out.contains(words), "{}", found.out);
-    assert_contains(&found.out, &["diagnose", "propose", "completions"]);
-}
-
-#[test]
-fn program_and_commands_have_manual_pages() {
+#[case("completions bash", &["complete -F _mpm", "diagnose", "propose", "completions"])]
+#[case("completions zsh", &["#compdef mpm-verify", "diagnose", "propose", "completions"])]
+#[case("completions fish", &["complete -c mpm-verify", "diagnose", "propose", "completions"])]
+#[case("man", &[".TH mpm-verify 1", "mpm\\-verify\\-diagnose(1)"])]
+#[case("man run", &[".TH mpm-verify-run 1", "resume"])]
+fn completions_and_manual_pages_have_the_commands(#[case] call: &str, #[case] words: &[&str]) {
     let folder = Folder::new();
-    let page = folder.call(&["man"]);
-    assert!(page.code == SOUND && page.out.contains(".TH mpm-verify 1"), "{}", page.out);
-    assert_contains(&page.out, &["mpm\\-verify\\-diagnose(1)"]);
-    let run = folder.call(&["man", "run"]);
-    assert!(run.out.contains(".TH mpm-verify-run 1") && run.out.contains("resume"), "{}", run.out);
+    assert_contains(&folder.accepted(&call.split(' ').collect::<Vec<_>>()), words);
     assert_eq!(folder.call(&["man", "rnu"]).code, BAD_INPUT);
 }

@@ -1,6 +1,6 @@
 //! `mpm-verify problem`: writes a level of a suite to a file.
 
-use super::{BAR, Folder, refusals};
+use super::{BAR, Folder, assert_refusals};
 use crate::common::valid_suite;
 use mpm_verify::external::ProblemFormat;
 use mpm_verify::study::{exact_state, level_problem};
@@ -34,29 +34,19 @@ fn level_is_written_at_its_time_and_in_its_format(
 #[test]
 fn unwritable_problem_is_refused() {
     let folder = Folder::with("bar.yaml", BAR);
-    let text = refusals(
-        &folder,
-        &[
-            "problem bar.yaml --level 9",
-            "problem bar.yaml --level 0",
-            "problem bar.yaml --format xls",
-            "problem courant-limit",
-            "problem heat-step --at 0.1",
-            "problem bar.yaml --at 0.0501",
-        ],
-    );
-    insta::assert_snapshot!(text, @"
-    problem bar.yaml --level 9
-    error: short-bar: there is no level 9: expected 1 to 4
-    problem bar.yaml --level 0
-    error: short-bar: there is no level 0: expected 1 to 4
-    problem bar.yaml --format xls
-    error: invalid value 'xls' for '--format <FORMAT>': expected one of csv, json, npz, vtu
-    problem courant-limit
-    error: courant-limit: it is not a convergence study
-    problem heat-step --at 0.1
-    error: heat-step: the suite states no exact motion
-    problem bar.yaml --at 0.0501
-    error: short-bar: `--at 0.0501` is not a time of the run: expected 0 to 0.05 s
-    ");
+    let expected = "
+$ problem bar.yaml --level 9
+error: short-bar: there is no level 9: expected 1 to 4
+$ problem bar.yaml --level 0
+error: short-bar: there is no level 0: expected 1 to 4
+$ problem bar.yaml --format xls
+error: invalid value 'xls' for '--format <FORMAT>': expected one of csv, json, npz, vtu
+$ problem courant-limit
+error: courant-limit: it is not a convergence study
+$ problem heat-step --at 0.1
+error: heat-step: the suite states no exact motion
+$ problem bar.yaml --at 0.0501
+error: short-bar: `--at 0.0501` is not a time of the run: expected 0 to 0.05 s
+";
+    assert_refusals(&folder, expected);
 }

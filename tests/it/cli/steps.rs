@@ -20,8 +20,7 @@ fn unstable_step_is_used_with_a_warning() {
     assert_eq!(warnings.len(), 3, "{warnings:?}");
     let first = "warning: short-bar::mpm-linear-flip-musl, 6 cells: dt = 2.0000e-2 s is ";
     assert!(warnings[0].starts_with(first), "{warnings:?}");
-    let document: Value = serde_json::from_str(&found.out).expect("one document");
-    let level = &document["suites"][0]["cases"][0]["levels"][3];
+    let level = &found.json()["suites"][0]["cases"][0]["levels"][3];
     assert!(level["dt"].as_f64() > level["stable_time_step"].as_f64());
     assert!(level["failure"].is_string());
     let text = folder.call(&["run", "bar.yaml"]).out;
@@ -52,9 +51,8 @@ fn automatic_steps_are_fractions_of_one_stable_step() {
         folder.write("bar.yaml", text.replace("failed", "divergent"));
         let found = folder.call(&["run", "bar.yaml", "--format", "json"]);
         assert!(!found.errors.contains("warning:"), "{}", found.errors);
-        let document: Value = serde_json::from_str(&found.out).expect("one document");
-        let levels =
-            document["suites"][0]["cases"][0]["levels"].as_array().expect("a list").clone();
+        let document = found.json();
+        let levels = document["suites"][0]["cases"][0]["levels"].as_array().expect("a list");
         let share = |level: &Value| {
             level["dt"].as_f64().expect("dt") / level["stable_time_step"].as_f64().expect("s")
         };

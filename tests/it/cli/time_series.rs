@@ -1,25 +1,17 @@
 //! `run --vtu`: writes cases as files for ParaView.
 
 use super::{BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
-use crate::common::vtk::{attribute, numbers, parts};
-use approx::assert_abs_diff_eq;
-use serde_json::Value;
+use crate::common::vtk::{attribute, numbers};
 use std::fs;
 
-/// Returns the series in the folder `vtu`.
+/// Returns the paths of the series in the folder `vtu`.
 fn series(folder: &Folder) -> Vec<String> {
-    let mut names = Vec::new();
-    for suite in fs::read_dir(folder.path().join("vtu")).expect("the folder of the series") {
-        let suite = suite.expect("an entry").path();
-        for entry in fs::read_dir(&suite).expect("the folder of a suite") {
-            let path = entry.expect("an entry").path();
-            if path.extension().is_some_and(|end| end == "pvd") {
-                names.push(path.to_str().expect("a name").to_owned());
-            }
-        }
-    }
-    names.sort();
-    names
+    let suites = folder.files("vtu").into_iter().map(|suite| format!("vtu/{suite}"));
+    let files = suites.flat_map(|suite| {
+        folder.files(&suite).into_iter().map(move |file| format!("{suite}/{file}"))
+    });
+    let series = files.filter(|file| file.rsplit('.').next() == Some("pvd"));
+    series.map(|file| folder.path().join(file).display().to_string()).collect()
 }
 
 /// Returns the files of the last instant of a series, particles first, and the time of this
@@ -34,26 +26,16 @@ fn last(series: &str) -> (Vec<Vec<u8>>, f64) {
     (lines.iter().filter(|line| time(line) == end).map(read).collect(), end)
 }
 
-/// The written errors must equal the judged ones.
 #[test]
-fn the_errors_of_the_particles_are_those_of_the_report() {
+fn finest_level_of_a_chosen_case_is_written() {
     let folder = Folder::with("bar.yaml", BAR);
-    let arguments = ["run", "bar.yaml", "--case", "flip", "--vtu", "vtu", "--format", "json"];
-    let found = folder.call(&arguments).ended(SOUND);
+    folder.call(&["run", "bar.yaml", "--case", "flip", "--vtu", "vtu"]).ended(SOUND);
     let all = series(&folder);
     assert!(all.len() == 1 && all[0].ends_with("short-bar/mpm-linear-flip-musl.12-cells.pvd"));
     let (files, end) = last(&all[0]);
-    let [particles, grid] = &files[..] else { panic!("{} files", files.len()) };
-    assert_eq!(end, 0.05);
-    let errors = numbers(particles, "error of displacement");
-    let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
-    let report: Value = serde_json::from_str(&found.out).expect("JSON");
-    let levels = &report["suites"][0]["cases"][0]["levels"];
-    let told = levels[3]["errors"]["rms"].as_f64().expect("a number");
-    assert!((rms / told - 1.0).abs() < 1e-12, "{rms} of {told}");
-    let mass = |file: &[u8]| numbers(file, "mass").iter().sum::<f64>();
-    assert_abs_diff_eq!(mass(grid), 1.0, epsilon = 1e-12);
-    assert_abs_diff_eq!(mass(particles), 1.0, epsilon = 1e-12);
+    let mass = |file: &Vec<u8>| numbers(file, "mass").iter().sum::<f64>();
+    assert_eq!((files.len(), end), (2, 0.05), "particles and grid");
+    assert!(files.iter().all(|file| (mass(file) - 1.0).abs() < 1e-12));
 }
 
 #[test]
@@ -95,33 +77,4 @@ fn study_without_runs_is_refused_with_the_reason() {
         .call(&["run", "grid-crossing", "--case", "linear", "--brief", "--vtu", "v"])
         .ended(SOUND);
     insta::assert_snapshot!(found.errors, @"note: grid-crossing::mpm-linear: no output: its study has no runs to show");
-}
-
-#[test]
-fn unwritable_folder_is_reported_before_the_run() {
-    let folder = Folder::with("bar.yaml", BAR);
-    folder.write("taken", "a file");
-    let errors = folder.refused(&["run", "bar.yaml", "--case", "flip", "--vtu", "taken"]);
-    assert!(errors.starts_with("error: --vtu "), "{errors}");
-}
-
-/// In 2-D vectors are extended to three components, and tensors to nine.
-#[test]
-fn a_problem_has_a_vertex_for_each_particle() {
-    let folder = Folder::new();
-    let mut command = folder.command(&[
-        "problem",
-        "mms-axis-aligned-2d-cubic",
-        "--format",
-        "vtu",
-        "--level",
-        "1",
-    ]);
-    let file = command.output().expect("the program starts").stdout;
-    let n: usize = attribute(parts(&file).0, "NumberOfPoints").parse().expect("a number");
-    assert_eq!(numbers(&file, "position").len(), 3 * n);
-    assert_eq!(numbers(&file, "velocity").len(), 3 * n);
-    let f = numbers(&file, "deformation_gradient");
-    assert_eq!(f.len(), 9 * n);
-    assert!(f[0] > 0.5 && f[4] > 0.5 && f[2] == 0.0 && f[8] == 0.0, "{:?}", &f[..9]);
 }

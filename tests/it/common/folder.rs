@@ -1,8 +1,10 @@
 //! A temporary folder for each test. The program runs in this folder.
 
+use serde_json::Value;
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A new, empty folder that is deleted at the end of the test.
@@ -21,6 +23,23 @@ impl Answer {
     pub(crate) fn ended(self, code: i32) -> Self {
         assert_eq!(self.code, code, "{}{}", self.out, self.errors);
         self
+    }
+
+    /// Parses the standard output.
+    #[track_caller]
+    pub(crate) fn json(&self) -> Value {
+        serde_json::from_str(&self.out).expect("one JSON document")
+    }
+}
+
+impl From<Output> for Answer {
+    fn from(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        Self {
+            code: output.status.code().expect("an exit status, not a signal"),
+            out: text(output.stdout),
+            errors: text(output.stderr),
+        }
     }
 }
 
@@ -71,13 +90,16 @@ impl Folder {
 
     /// Runs the program to its end.
     pub(crate) fn call(&self, arguments: &[&str]) -> Answer {
-        let output = self.command(arguments).output().expect("the program starts");
-        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-        Answer {
-            code: output.status.code().expect("an exit status, not a signal"),
-            out: text(output.stdout),
-            errors: text(output.stderr),
-        }
+        self.command(arguments).output().expect("the program starts").into()
+    }
+
+    /// Runs the program to its end with `input` as its standard input.
+    pub(crate) fn call_with_input(&self, arguments: &[&str], input: &str) -> Answer {
+        let mut command = self.command(arguments);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().expect("the program starts");
+        child.stdin.take().expect("a pipe").write_all(input.as_bytes()).expect("a reader");
+        child.wait_with_output().expect("an end").into()
     }
 
     /// Returns the standard output of a call that must end with status 0 and print no error.

@@ -15,22 +15,12 @@ fn folder() -> Folder {
     folder
 }
 
+const BOTH: [&str; 4] = ["--solver", "first=sh one.sh", "--solver", "second=sh two.sh"];
+
 #[rstest]
 fn solvers_and_methods_are_cases_of_one_suite(folder: Folder) {
-    let answer = folder
-        .call(&[
-            "run",
-            "bar.yaml",
-            "--with-methods",
-            "--format",
-            "json",
-            "--solver",
-            "first=sh one.sh",
-            "--solver",
-            "second=sh two.sh",
-        ])
-        .ended(SOUND);
-    let document: Value = serde_json::from_str(&answer.out).unwrap();
+    let run = ["run", "bar.yaml", "--with-methods", "--format", "json"];
+    let document = folder.call(&[&run[..], &BOTH].concat()).ended(SOUND).json();
     let suites = document["suites"].as_array().unwrap();
     assert_eq!(suites.len(), 1);
     let cases = suites[0]["cases"].as_array().unwrap();
@@ -48,30 +38,19 @@ fn a_report_shows_no_transfers_of_solvers_that_count_none(folder: Folder) {
         .call(&["run", "bar.yaml", "--with-methods", "--solver", "mine=sh one.sh"])
         .ended(SOUND);
     let (_, finest) = answer.out.split_once("on the finest level").expect("a table");
-    let transfers = |case: &str| {
-        // Cells are separated by at least two spaces.
-        let cells = |line: &str| {
-            let cells = line.split("  ").map(|cell| cell.trim().to_owned());
-            cells.filter(|cell| !cell.is_empty()).collect::<Vec<String>>()
-        };
-        let mut lines = finest.lines().map(cells);
-        let mut row = |name: &str| {
-            lines.find(|cells| cells.first().is_some_and(|cell| cell == name)).expect("a row")
-        };
-        let column = row("case").iter().position(|cell| cell == "transfers").expect("a column");
-        row(case)[column].clone()
+    let row = |name: &str| -> Vec<&str> {
+        let line = finest.lines().find(|line| line.trim_start().starts_with(name));
+        line.expect("a row").split("  ").filter(|cell| !cell.is_empty()).map(str::trim).collect()
     };
-    assert_eq!(transfers("mine"), "-");
-    assert!(transfers("fem-linear-lumped").parse::<u64>().is_ok_and(|count| count > 0));
+    let column = row("case").iter().position(|cell| *cell == "transfers").expect("a column");
+    assert_eq!(row("mine")[column], "-");
+    assert!(row("fem-linear-lumped")[column].parse::<u64>().is_ok_and(|count| count > 0));
 }
 
 #[rstest]
 fn one_ranking_by_seconds_has_methods_and_solvers(folder: Folder) {
-    let solvers = ["--solver", "first=sh one.sh", "--solver", "second=sh two.sh"];
-    let answer = folder
-        .call(&[&["cost", "bar.yaml", "--with-methods", "--format", "json"], &solvers[..]].concat())
-        .ended(SOUND);
-    let document: Value = serde_json::from_str(&answer.out).unwrap();
+    let cost = ["cost", "bar.yaml", "--with-methods", "--format", "json"];
+    let document = folder.call(&[&cost[..], &BOTH].concat()).ended(SOUND).json();
     let suite = &document["suites"][0];
     let names = |list: &Value| -> Vec<String> {
         let names = list.as_array().into_iter().flatten().map(|one| one["case"].as_str());
@@ -108,29 +87,15 @@ fn each_solver_has_its_own_gate(folder: Folder) {
         folder.call(&[&gate[..], &["first=sh one.sh", "--solver", second]].concat())
     };
     assert_eq!(both("second=sh two.sh").code, SOUND);
+    // The name also selects cases.
+    let one = ["second=sh two.sh", "--case", "second"];
+    let one = folder.call(&[&gate[..], &["first=sh one.sh", "--solver"], &one].concat()).out;
+    assert!(!one.contains("first") && one.contains("::second"), "{one}");
     let answer = both("low=sh low.sh");
     let lines = answer.out.lines().filter(|line| line.contains("  short-bar::"));
     let results: Vec<String> =
         lines.map(|line| line.split_whitespace().take(2).collect::<Vec<_>>().join(" ")).collect();
     assert_eq!(results, ["pass short-bar::first", "FAIL short-bar::low"]);
-}
-
-#[rstest]
-fn case_is_selected_by_the_given_solver_name(folder: Folder) {
-    let answer = folder
-        .call(&[
-            "run",
-            "bar.yaml",
-            "--brief",
-            "--case",
-            "second",
-            "--solver",
-            "first=sh one.sh",
-            "--solver",
-            "second=sh two.sh",
-        ])
-        .ended(SOUND);
-    assert!(!answer.out.contains("first") && answer.out.contains("::second"), "{}", answer.out);
 }
 
 #[rstest]
