@@ -6,12 +6,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Returns the path of a key below another key.
-pub(super) fn joined(key: &str, name: &str) -> String {
+fn joined(key: &str, name: &str) -> String {
     if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") }
 }
 
 /// Returns the path of a key that several kinds of study, or several bodies, share.
-pub(super) fn shared(study: &str, key: &str) -> String {
+fn shared(study: &str, key: &str) -> String {
     let key = key.replace("scene.bodies.", "scene.");
     let first = key.split('.').next().unwrap_or(&key);
     // A gradient study has the problem and the levels of a convergence study.
@@ -27,14 +27,12 @@ pub(super) fn shared(study: &str, key: &str) -> String {
 /// Keys of any suite at the top of the file; the pages describe them for one kind of study only.
 const OF_ALL: [&str; 6] = ["suite", "title", "source", "about", "parameters", "functions"];
 
-/// Keys that the grammar from error messages does not contain: those of full runs, and tables.
-const BESIDES: [&str; 4] = ["expect.full", "refine.full", "parameters.by", "parameters.table"];
-
 /// Maximum number of characters of a quotation.
 const LONGEST: usize = 70;
 
-/// The allowed names of each key.
-pub(super) type Names = BTreeMap<String, BTreeSet<String>>;
+/// The allowed names of each key, and whether it is required (both values if this depends on the
+/// context).
+pub(super) type Keys<'a> = BTreeMap<String, (BTreeSet<&'a str>, BTreeSet<bool>)>;
 
 /// Quotations by key: the text and the file.
 pub(super) type Quotations = BTreeMap<String, (String, String)>;
@@ -44,24 +42,26 @@ fn root() -> PathBuf {
 }
 
 /// Returns the name of a key on the pages.
-pub(super) fn key_of(study: &str, path: &str) -> String {
-    let is_of_all = OF_ALL.contains(&path);
+fn key_of(study: &str, path: &str) -> String {
+    let is_of_all = OF_ALL.contains(&path.split('.').next().unwrap_or(path));
     if is_of_all { path.to_owned() } else { shared(study, path) }
 }
 
-/// Lists every key of the grammar with its names.
-pub(super) fn keys(grammars: &[(&str, Node)]) -> Names {
-    let mut keys: Names = BESIDES.map(|key| (key.to_owned(), BTreeSet::new())).into();
+/// Lists every key of the grammar.
+pub(super) fn keys<'a>(grammars: &'a [(&str, Node)]) -> Keys<'a> {
+    let mut keys = Keys::new();
     for (study, node) in grammars {
-        for (key, node) in &node.keys {
-            add(study, key, node, &mut keys);
-        }
+        add(study, "", node, &mut keys);
     }
     keys
 }
 
-fn add(study: &str, path: &str, node: &Node, keys: &mut Names) {
-    keys.entry(key_of(study, path)).or_default().extend(node.names.iter().cloned());
+fn add<'a>(study: &str, path: &str, node: &'a Node, keys: &mut Keys<'a>) {
+    if !path.is_empty() {
+        let (names, required) = keys.entry(key_of(study, path)).or_default();
+        names.extend(node.names.iter().map(String::as_str));
+        required.extend(&node.required);
+    }
     for (key, below) in &node.keys {
         add(study, &joined(path, key), below, keys);
     }
@@ -118,15 +118,13 @@ fn quote(
         Value::Mapping(map) => {
             for (name, value) in map {
                 let text = name.as_str().unwrap_or_default();
-                let known = node.keys.iter().find(|(known, _)| known == text);
-                let is_invented = known.is_none() && (node.named.is_some() || is_of_author(path));
-                let is_table = path == "parameters" && ["by", "table"].contains(&text);
-                let at =
-                    if is_invented && !is_table { path.to_owned() } else { joined(path, text) };
-                found(key_of(study, &at), text, value);
                 // The entry for full runs has the same keys as the entry itself.
+                let known = node.keys.get(text).filter(|_| text != "full");
+                let is_invented = known.is_none() && node.named.is_some();
+                let at = if is_invented { path.to_owned() } else { joined(path, text) };
+                found(key_of(study, &at), text, value);
                 let (below, at) = match (known, &node.named) {
-                    (Some((_, below)), _) => (below, at.as_str()),
+                    (Some(below), _) => (below, at.as_str()),
                     (None, Some(below)) => (below.as_ref(), at.as_str()),
                     (None, None) => (node, path),
                 };
@@ -141,11 +139,6 @@ fn quote(
         }
         _ => {}
     }
-}
-
-/// Whether the author chooses the sub-keys of a key.
-fn is_of_author(path: &str) -> bool {
-    ["parameters", "functions"].contains(&path)
 }
 
 /// Formats YAML on one line.

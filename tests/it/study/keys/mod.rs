@@ -2,15 +2,15 @@
 
 mod grammar;
 mod manual;
-mod required;
 
-use grammar::{Node, STUDIES};
+use grammar::Node;
 use std::sync::LazyLock;
 
 /// Grammar of each kind of study.
-static GRAMMARS: LazyLock<Vec<(&str, Node)>> =
-    LazyLock::new(|| STUDIES.map(|study| (study, Node::of_study(study))).into());
+static GRAMMARS: LazyLock<Vec<(&str, Node)>> = LazyLock::new(grammar::studies);
 
+/// A key is marked `required` if it is required wherever it is allowed. A key with a default is
+/// optional somewhere.
 #[test]
 fn every_key_has_a_row_in_the_manual() {
     let (keys, pages) = (manual::keys(&GRAMMARS), manual::pages());
@@ -20,11 +20,21 @@ fn every_key_has_a_row_in_the_manual() {
     assert!(missing.is_empty(), "no row in docs/grammar: {missing:?}");
     for (key, rows) in rows {
         assert_eq!(rows.len(), 1, "rows of `{key}` in docs/grammar");
-        let names = keys.get(key).unwrap_or_else(|| panic!("docs/grammar: there is no `{key}`"));
+        let known = keys.get(key);
+        let (names, required) =
+            known.unwrap_or_else(|| panic!("docs/grammar: there is no `{key}`"));
         let untold = names.iter().filter(|name| !rows[0].contains(&format!("`{name}`")));
-        let untold: Vec<&String> = untold.collect();
+        let untold: Vec<&&str> = untold.collect();
         assert!(untold.is_empty(), "docs/grammar: the row of `{key}` has not {untold:?}");
+        let default = rows[0].split(" | ").nth(1).unwrap_or_default();
+        let is_conditional = default != "required" && default.starts_with("required");
+        let is_right = required.contains(&false) != (default == "required");
+        assert!(
+            default.is_empty() || is_conditional || is_right,
+            "docs/grammar: `{key}`, default {default}"
+        );
     }
+    assert!(keys.len() > 150, "only {} keys", keys.len());
 }
 
 #[test]
@@ -35,24 +45,6 @@ fn the_manual_has_every_verdict() {
         verdicts.iter().map(|verdict| format!("`{}`", verdict.name().replace([' ', '-'], "_")));
     let untold: Vec<String> = spelt.filter(|name| !row.contains(name)).collect();
     assert!(untold.is_empty(), "docs/grammar: the row of `expect.verdict` has not {untold:?}");
-}
-
-/// A key is marked `required` if it is required wherever it is allowed. A key with a default is
-/// optional somewhere.
-#[test]
-fn manual_lists_required_keys() {
-    let (required, pages) = (required::required(), manual::pages());
-    let mut held = 0;
-    for (key, rows) in manual::rows(&pages) {
-        let default = rows[0].split(" | ").nth(1).unwrap_or_default();
-        let (Some(found), false) = (required.get(key), default.is_empty()) else { continue };
-        let is_conditional = default != "required" && default.starts_with("required");
-        let is_right =
-            if default == "required" { !found.contains(&false) } else { found.contains(&false) };
-        assert!(is_conditional || is_right, "docs/grammar: `{key}`, default {default}");
-        held += 1;
-    }
-    assert!(held > 150, "only {held} rows are in the schema");
 }
 
 #[test]
