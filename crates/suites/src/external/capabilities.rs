@@ -381,12 +381,8 @@ mod tests {
         assert!(laws.eq(LAWS.iter().copied()));
         let loads = crate::suite::EffectName::ALL.iter().map(|load| load.name());
         assert!(loads.eq(LOADS.iter().copied()));
-    }
-
-    #[test]
-    fn known_gradients_are_the_parameters() {
-        let names = crate::subject::GradientParameter::ALL.iter().map(|parameter| parameter.name());
-        assert!(names.eq(GRADIENTS.iter().copied()));
+        let gradients = crate::subject::GradientParameter::ALL.iter().map(|one| one.name());
+        assert!(gradients.eq(GRADIENTS.iter().copied()));
     }
 
     #[test]

@@ -554,24 +554,9 @@ fn wrong_points_are_refused(
 fn table_of_results_has_the_states_of_the_particles() {
     let problem = problem(LOADED);
     let n = problem.particles.len();
-    let names = [
-        "stress_yx",
-        "u_y",
-        "F_xy",
-        "Y",
-        "v_x",
-        "stress_zz",
-        "t",
-        "F_yx",
-        "stress_xx",
-        "v_y",
-        "X",
-        "F_xx",
-        "u_x",
-        "stress_yy",
-        "F_yy",
-        "stress_xy",
-    ];
+    let names = "stress_yx u_y F_xy Y v_x stress_zz t F_yx stress_xx v_y X F_xx u_x stress_yy F_yy \
+                 stress_xy";
+    let names: Vec<&str> = names.split(' ').collect();
     let value = |name: &str, instant: usize, p: usize| {
         let label = &problem.particles.reference_position[2 * p..];
         match name {

@@ -3,7 +3,7 @@
 use crate::suite::yaml::{Diagnostic, MAX_BYTES, Source};
 use rstest::rstest;
 use std::env::temp_dir;
-use std::fs::{self, File};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 struct Temporary(PathBuf);
@@ -41,17 +41,10 @@ fn valid_file_keeps_its_given_name() {
 }
 
 #[test]
-fn a_missing_file() {
+fn missing_file_and_folder_are_refused() {
     let diagnostic = refused(Path::new("no/such.yaml"));
     assert_eq!(diagnostic.one_line(), "no/such.yaml: there is no such file");
-    assert_eq!(diagnostic.to_string(), "error: there is no such file\n--> no/such.yaml");
-}
-
-#[test]
-fn a_folder() {
-    let diagnostic = refused(&temp_dir());
-    assert_eq!(diagnostic.message(), "this is a folder, not a suite file");
-    assert_eq!(diagnostic.help(), Some("name a file in it"));
+    assert_eq!(refused(&temp_dir()).help(), Some("name a file in it"));
 }
 
 /// A named pipe is refused, because opening it without a writer would block.
@@ -65,14 +58,6 @@ fn a_named_pipe() {
     assert_eq!(diagnostic.message(), "this is a named pipe, not a suite file");
     let help = diagnostic.help().unwrap_or_default();
     assert!(help.contains("/dev/stdin"), "{help}");
-}
-
-#[test]
-fn large_file_is_refused_unread() {
-    let file = Temporary::new("large.yaml");
-    File::create(&file.0).unwrap().set_len(50_000_000).unwrap();
-    let message = "the file is too large: 48829 KiB, at most 64 KiB";
-    assert_eq!(refused(&file.0).message(), message);
 }
 
 #[cfg(unix)]
