@@ -1,12 +1,15 @@
-//! Helpers of several tests: suites, folders, JSON Schemas and VTK files.
+//! Helpers of several tests: suites, solvers, folders, JSON Schemas and VTK files.
 
 pub(crate) mod folder;
 pub(crate) mod json_schema;
+pub(crate) mod solver;
 pub(crate) mod vtk;
 
 use mpm_verify::embedded;
+use mpm_verify::study::Runner;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
+use mpm_verify::verify::{CaseOutcome, LevelOutcome};
 
 /// Reads and loads a valid suite.
 #[track_caller]
@@ -39,4 +42,21 @@ pub(crate) fn edited(suite: &str, edits: &[(&str, &str)]) -> String {
         assert!(text.contains(from), "the suite does not say `{from}`");
         text.replacen(from, to, 1)
     })
+}
+
+/// Runs the cases of a valid suite.
+#[track_caller]
+pub(crate) fn cases(text: &str) -> Vec<CaseOutcome> {
+    Runner::new(&valid_suite(text)).run(&|| ()).cases
+}
+
+#[track_caller]
+pub(crate) fn levels(case: &CaseOutcome) -> &[LevelOutcome] {
+    &case.convergence().expect(&case.reason).levels
+}
+
+/// Returns the judged errors, level by level.
+#[track_caller]
+pub(crate) fn errors(case: &CaseOutcome) -> Vec<f64> {
+    levels(case).iter().map(|level| level.error).collect()
 }

@@ -3,10 +3,10 @@
 use super::bar;
 use super::program::{folder_of as folder, solver_of as script};
 use crate::cli::{BAD_INPUT, BAR, FAILED, Folder, SOUND, on_one_grid};
+use crate::common::edited;
 use crate::common::folder::{Answer, assert_contains, flat};
 use rstest::rstest;
 
-/// Runs the gate on `targets` with `options`.
 fn gate(folder: &Folder, targets: &[&str], options: &[&str]) -> Answer {
     let start = ["run", "--gate", "--brief", "--solver", "sh solver.sh"];
     folder.call(&[&start[..], options, targets].concat())
@@ -88,19 +88,13 @@ fn requirement_is_limited_by_any_method(
 }
 
 #[rstest]
-#[case::nothing("", "this entry states no requirement")]
-#[case::no_order("order: 0,", "the order is 0, but must be above zero")]
-#[case::a_high_order("order: 21,", "expected an order up to 20")]
-#[case::no_bound("error_below: -1,", "the bound on errors is -1")]
-#[case::a_law_that_matters(
-    "any_law: true,",
-    "the solution depends on the law, because it is neither a translation nor a small"
-)]
-#[case::not_gated_with_a_bound(
-    "gated: false, order: 1,",
-    "with `gated: false`, a required order or bound has no effect"
-)]
-#[case::a_misspelt_key("orders: 1,", "did you mean `order`?")]
+#[case("", "this entry states no requirement")]
+#[case("order: 0,", "the order is 0, but must be above zero")]
+#[case("order: 21,", "expected an order up to 20")]
+#[case("error_below: -1,", "the bound on errors is -1")]
+#[case("any_law: true,", "depends on the law, because it is neither a translation nor a small")]
+#[case("gated: false, order: 1,", "with `gated: false`, a required order or bound has no effect")]
+#[case("orders: 1,", "did you mean `order`?")]
 fn a_mistake_in_any_method(#[case] keys: &str, #[case] words: &str) {
     let folder = folder("h");
     let stated = format!("any_method: {{{keys} because: theory}}\n\nexpect:");
@@ -203,27 +197,25 @@ fn steps_that_follow_the_cells_are_not_shortened() {
 #[test]
 fn a_translation_needs_no_particular_law() {
     let folder = folder("0");
-    let moving = r#"suite: moving-block
-title: Translation
-source: a textbook
-scene:
-  dimension: 1
-  body: {box: {from: [0], to: [1]}}
-  grid: {from: [0], to: [2]}
-  material: {corotated: {young: 3, poisson: 0.25, density: 1}}
-  initial_velocity: [0.1]
-exact:
-  equation: corotated
-  displacement: ["0.1*t"]
-run: {until: 0.05, dt: 1e-2}
-refine: {cells: [4, 6, 8, 12], ppc: 4}
-methods:
-  - mpm: {basis: linear, transfer: flip, scheme: musl}
-expect:
-  - error_below: 1e-12
-    because: a uniform velocity is kept
-"#;
-    folder.write("moving.yaml", moving);
+    let elastic = "linear_elastic: {young: 100, poisson: 0, density: 1}";
+    let moving = edited(
+        &bar(),
+        &[
+            ("short-bar", "moving-block"),
+            ("parameters:\n  omega: \"5*pi\"\n", ""),
+            ("[1]}}\n", "[1]}}\n  grid: {from: [0], to: [2]}\n"),
+            (elastic, "corotated: {young: 3, poisson: 0.25, density: 1}"),
+            ("  boundary: {left: fixed}\n", ""),
+            ("\"1e-3*sin(pi*X/2)\"", "0.1"),
+            ("small_strain", "corotated"),
+            ("1e-3*sin(pi*X/2)*sin(omega*t)/omega", "0.1*t"),
+            ("until: 0.004, dt: \"h/250\"", "until: 0.05, dt: 1e-2"),
+            ("  - fem: {element: linear, mass: lumped}\n", ""),
+            ("observe: {at: [0.5]}\n", ""),
+            ("order: [1.7, 2.3]", "error_below: 1e-12"),
+        ],
+    );
+    folder.write("moving.yaml", &moving);
     let script = folder.read("solver.sh");
     let script = script.replace("s * sin(5 * pi * t) / (5 * pi)", "0.1 * t");
     let script = script.replace("s * cos(5 * pi * t)", "0.1");
@@ -234,7 +226,7 @@ expect:
     folder.write("solver.sh", logged);
     let found = gate(&folder, &["moving.yaml"], &[]).ended(FAILED);
     assert!(found.out.contains("lacks laws: corotated"), "{}", found.out);
-    folder.write("moving.yaml", with_any_method(moving, "any_law: true"));
+    folder.write("moving.yaml", with_any_method(&moving, "any_law: true"));
     let found = gate(&folder, &["moving.yaml"], &[]).ended(SOUND);
     assert!(found.out.contains("at rounding"), "{}", found.out);
     let problem = folder.read("log");
@@ -242,38 +234,18 @@ expect:
 }
 
 #[rstest]
-#[case::a_formal_order("formal_order: 1\n", "h", SOUND, "order at least 0.90")]
-#[case::a_higher_formal_order("formal_order: 3\n", "h*h", FAILED, "order at least 2.90")]
-#[case::an_order(
-    "suites:\n  short-bar: {order: 1, because: of walls}\n",
-    "h",
-    SOUND,
-    "order at least 0.90"
-)]
-#[case::a_bound(
-    "suites:\n  short-*: {error_below: 1e-4, because: of walls}\n",
-    "0.1",
-    SOUND,
-    "within bounds"
-)]
-#[case::above_the_bound(
-    "suites:\n  short-*: {error_below: 1e-9, because: of walls}\n",
-    "0.1",
-    FAILED,
-    "FAIL"
-)]
+#[case::a_formal_order("formal_order: 1", "h", SOUND, "order at least 0.90")]
+#[case::a_higher_formal_order("formal_order: 3", "h*h", FAILED, "order at least 2.90")]
+#[case::an_order("short-bar: {order: 1, because: a}", "h", SOUND, "order at least 0.90")]
+#[case::a_bound("short-*: {error_below: 1e-4, because: a}", "0.1", SOUND, "within bounds")]
+#[case::above_the_bound("short-*: {error_below: 1e-9, because: a}", "0.1", FAILED, "FAIL")]
 #[case::the_first_that_fits(
-    "suites:\n  short-bar: {order: 1, because: a}\n  '*': {order: 2, because: b}\n",
+    "short-bar: {order: 1, because: a}, '*': {order: 2, because: b}",
     "h",
     SOUND,
     "pass"
 )]
-#[case::an_exception(
-    "suites:\n  short-bar: {skip: its walls are soft}\n",
-    "0.1",
-    SOUND,
-    "known limit  short-bar::odd"
-)]
+#[case::an_exception("short-bar: {skip: soft walls}", "0.1", SOUND, "known limit  short-bar::odd")]
 fn a_configuration_with(
     #[case] text: &str,
     #[case] error: &str,
@@ -281,12 +253,14 @@ fn a_configuration_with(
     #[case] words: &str,
 ) {
     let folder = folder(error);
-    folder.write("solver.yaml", text);
+    let is_of_solver = text.starts_with("formal_order");
+    let config = if is_of_solver { text.to_owned() } else { format!("suites: {{{text}}}\n") };
+    folder.write("solver.yaml", config);
     let found = gate(&folder, &["bar.yaml"], &["--solver-config", "solver.yaml"]).ended(code);
     assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
     if text.contains("skip") {
         for text in [&found.out, &found.errors] {
-            assert!(text.contains("its walls are soft"), "{}{}", found.out, found.errors);
+            assert!(text.contains("soft walls"), "{}{}", found.out, found.errors);
         }
     }
 }
@@ -310,13 +284,8 @@ fn a_mistake_in_a_configuration(#[case] text: &str, #[case] words: &[&str]) {
     folder.write("solver.yaml", text);
     let found = gate(&folder, &["bar.yaml"], &["--solver-config", "solver.yaml"]).ended(BAD_INPUT);
     assert_contains(&found.errors, words);
-}
-
-#[test]
-fn missing_configuration_is_bad_input() {
-    let found =
-        gate(&folder("h"), &["bar.yaml"], &["--solver-config", "none.yaml"]).ended(BAD_INPUT);
-    assert!(found.errors.contains("none.yaml"), "{}", found.errors);
+    let none = gate(&folder, &["bar.yaml"], &["--solver-config", "none.yaml"]).ended(BAD_INPUT);
+    assert_contains(&none.errors, &["none.yaml"]);
 }
 
 /// External solvers cannot run studies of the internals of a method.

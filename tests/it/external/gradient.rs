@@ -1,15 +1,14 @@
 //! Derivatives of differentiable solvers. A library solver with a known error produces every state.
 
+use crate::common::solver::{NewSubject, prescribed};
 use crate::common::valid_suite;
 use approx::assert_relative_eq;
 use mpm_verify::external::{
-    Capabilities, FieldName, FieldPlaces, Gradient, GradientError, GradientRequest, HandedNumber,
-    LevelProblem, ProblemNeeds, SolverFactory,
+    Capabilities, Gradient, GradientError, GradientRequest, HandedNumber, LevelProblem,
+    ProblemNeeds, SolverFactory,
 };
 use mpm_verify::study::{Runner, under, under_on};
-use mpm_verify::subject::{
-    Failure, Functional, GradientParameter, Precision, RunCounters, Samples, Subject, SubjectError,
-};
+use mpm_verify::subject::{Functional, GradientParameter, Precision, Samples};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{GateTerms, Suite};
 use mpm_verify::verify::{CaseOutcome, GradientEntry, GradientState, GradientStudy};
@@ -54,51 +53,6 @@ impl Bar {
     }
 }
 
-struct Moving {
-    problem: LevelProblem,
-    steps: u64,
-    solver: Differentiable,
-}
-
-impl Moving {
-    fn displacement(&self) -> Vec<f64> {
-        let bar = Bar::of(&self.problem, self.steps as f64 * self.problem.dt);
-        let (mut amplitude, _) = bar.amplitude(GradientParameter::Young);
-        if self.solver.jump.is_some_and(|at| bar.young > at) {
-            amplitude *= 1.0 + 1e-4;
-        }
-        let at = |x: &f64| amplitude * libm::sin(std::f64::consts::FRAC_PI_2 * x);
-        let u: Vec<f64> = self.problem.particles.reference_position.iter().map(at).collect();
-        match self.solver.precision {
-            Precision::Double => u,
-            // In single precision, positions are rounded.
-            Precision::Single => {
-                let x = self.problem.particles.reference_position.iter();
-                x.zip(u).map(|(x, u)| f64::from((x + u) as f32) - x).collect()
-            }
-        }
-    }
-}
-
-impl Subject for Moving {
-    fn step(&mut self, _: f64) -> Result<(), Failure> {
-        self.steps += 1;
-        Ok(())
-    }
-
-    fn sample(&self, samples: &mut Samples) {
-        samples.restart(1);
-        samples.label.clone_from(&self.problem.particles.reference_position);
-        samples.weight.clone_from(&self.problem.particles.reference_volume);
-        samples.displacement = self.displacement();
-        samples.velocity = vec![0.0; samples.label.len()];
-    }
-
-    fn counters(&self) -> RunCounters {
-        RunCounters::new(0)
-    }
-}
-
 type Edit = fn(&mut Vec<f64>);
 
 /// A solver with gradients of the mean displacement.
@@ -107,8 +61,6 @@ struct Differentiable {
     names: Vec<&'static str>,
     /// Modifies the gradient before it is reported.
     edit: Edit,
-    /// Young's modulus above which the displacement jumps, if any.
-    jump: Option<f64>,
     precision: Precision,
     error: Option<GradientError>,
 }
@@ -118,10 +70,23 @@ impl Differentiable {
         Self {
             names: vec!["young", "density", "initial_velocity"],
             edit: |_| (),
-            jump: None,
             precision: Precision::Double,
             error: None,
         }
+    }
+
+    fn displacement(&self, problem: &LevelProblem, steps: u64) -> Vec<f64> {
+        let bar = Bar::of(problem, steps as f64 * problem.dt);
+        let (amplitude, _) = bar.amplitude(GradientParameter::Young);
+        let at = |x: &f64| {
+            let u = amplitude * libm::sin(std::f64::consts::FRAC_PI_2 * x);
+            match self.precision {
+                Precision::Double => u,
+                // In single precision, positions are rounded.
+                Precision::Single => f64::from((x + u) as f32) - x,
+            }
+        };
+        problem.particles.reference_position.iter().map(at).collect()
     }
 }
 
@@ -140,8 +105,11 @@ impl SolverFactory for Differentiable {
         Capabilities { gradients, ..of }.lacking(needs)
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        Ok(Box::new(Moving { problem, steps: 0, solver: self.clone() }))
+    fn subject(&self, problem: LevelProblem) -> NewSubject {
+        let solver = self.clone();
+        Ok(prescribed(problem, move |problem, steps, samples| {
+            samples.displacement = solver.displacement(problem, steps);
+        }))
     }
 
     fn gradient(
@@ -155,11 +123,12 @@ impl SolverFactory for Differentiable {
         assert_eq!(request.of, Functional::MeanDisplacement { axis: 0 });
         let steps = problem.steps;
         let bar = Bar::of(&problem, steps as f64 * problem.dt);
-        let mass = problem.particles.mass.clone();
-        let moving = Moving { problem, steps, solver: self.clone() };
         let mut samples = Samples::default();
-        moving.sample(&mut samples);
-        let value = request.of.value(&mass, &samples).value;
+        samples.restart(1);
+        samples.label.clone_from(&problem.particles.reference_position);
+        samples.weight.clone_from(&problem.particles.reference_volume);
+        samples.displacement = self.displacement(&problem, steps);
+        let value = request.of.value(&problem.particles.mass, &samples).value;
         let shape = value / bar.amplitude(GradientParameter::Young).0;
         let slope = |parameter: &GradientParameter| shape * bar.amplitude(*parameter).1;
         let mut gradient = request.with_respect_to.iter().map(slope).collect();
@@ -234,23 +203,12 @@ fn a_wrong_gradient_is_wrong_for_its_parameters(#[case] edit: Edit, #[case] wron
     }
 }
 
-#[rstest]
-#[case::in_the_sweep(1.0013)]
-#[case::between_perturbations(1.001)]
-fn a_jump_of_the_function_is_named(#[case] at: f64) {
-    let cases = cases(&Differentiable { jump: Some(at), ..Differentiable::sound() });
-    assert_eq!(states(&cases)[0], GradientState::Jumps, "{}", cases[0].reason);
-    let study = cases[0].gradient().expect("results");
-    assert_eq!(study.sweep.as_ref().expect("a sweep").jumps.len(), 1);
-}
-
 #[test]
 fn single_precision_is_at_rounding_and_not_wrong() {
     let single = Differentiable { precision: Precision::Single, ..Differentiable::sound() };
     let suite = valid_suite(SUITE);
-    for (case, state) in
-        run(&suite, &single, false).iter().zip(states(&run(&suite, &single, false)))
-    {
+    let cases = run(&suite, &single, false);
+    for (case, state) in cases.iter().zip(states(&cases)) {
         assert_eq!(state, GradientState::AtRounding, "{}: {}", case.case, case.reason);
     }
 }
@@ -325,50 +283,19 @@ struct Plate {
     labels: Mutex<Vec<f64>>,
 }
 
-struct Moved(LevelProblem, u64);
-
-impl Moved {
-    fn sum(&self) -> (f64, f64, f64) {
-        let Self(problem, steps) = self;
-        let (material, particles) = (&problem.materials[0], &problem.particles);
-        let (x, v) = (&particles.reference_position, &particles.velocity);
-        let factor = v[0] / (-0.6 * (x[0] + 2.0 * x[1]));
-        let friction = problem.faces.iter().find_map(|face| match face.numbers.values.first() {
-            Some((_, HandedNumber::Scalar(value))) if face.name == "bottom" => Some(*value),
-            _ => None,
-        });
-        let young = 1e-6 * material.parameter("young");
-        let of_rest = 5.0 * friction.expect("a coefficient") + 2.0 * material.density;
-        let sum = young.powi(3) + of_rest + factor + 1e-3 * *steps as f64;
-        for (mass, volume) in particles.mass.iter().zip(&particles.reference_volume) {
-            assert_relative_eq!(*mass, material.density * volume, max_relative = 1e-14);
-        }
-        let places = FieldPlaces::new(&x[..2], &[0]);
-        let fields = problem.fields.as_ref().expect("fields");
-        let velocity = fields.values(FieldName::Velocity, 0.0, &places).expect("a velocity");
-        assert_relative_eq!(velocity[1], v[1], max_relative = 1e-14);
-        (sum, young, factor)
-    }
-}
-
-impl Subject for Moved {
-    fn step(&mut self, _: f64) -> Result<(), Failure> {
-        self.1 += 1;
-        Ok(())
-    }
-
-    fn sample(&self, samples: &mut Samples) {
-        let particles = &self.0.particles;
-        samples.restart(2);
-        samples.label.clone_from(&particles.reference_position);
-        samples.weight.clone_from(&particles.reference_volume);
-        samples.displacement = [0.5, -3.0 * self.sum().0].repeat(particles.mass.len());
-        samples.velocity.clone_from(&particles.velocity);
-    }
-
-    fn counters(&self) -> RunCounters {
-        RunCounters::new(0)
-    }
+/// Returns the sum s, and the terms of E and of the initial velocity.
+fn sum(problem: &LevelProblem, steps: u64) -> (f64, f64, f64) {
+    let (material, particles) = (&problem.materials[0], &problem.particles);
+    let (x, v) = (&particles.reference_position, &particles.velocity);
+    let factor = v[0] / (-0.6 * (x[0] + 2.0 * x[1]));
+    let friction = problem.faces.iter().find_map(|face| match face.numbers.values.first() {
+        Some((_, HandedNumber::Scalar(value))) if face.name == "bottom" => Some(*value),
+        _ => None,
+    });
+    let young = 1e-6 * material.parameter("young");
+    let of_rest = 5.0 * friction.expect("a coefficient") + 2.0 * material.density;
+    let sum = young.powi(3) + of_rest + factor + 1e-3 * steps as f64;
+    (sum, young, factor)
 }
 
 impl SolverFactory for Plate {
@@ -376,8 +303,12 @@ impl SolverFactory for Plate {
         "plate"
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        Ok(Box::new(Moved(problem, 0)))
+    fn subject(&self, problem: LevelProblem) -> NewSubject {
+        Ok(prescribed(problem, |problem, steps, samples| {
+            let displacement = [0.5, -3.0 * sum(problem, steps).0];
+            samples.displacement = displacement.repeat(problem.particles.len());
+            samples.velocity.clone_from(&problem.particles.velocity);
+        }))
     }
 
     fn gradient(
@@ -390,8 +321,7 @@ impl SolverFactory for Plate {
         if problem.grid.h < 1.0 {
             self.labels.lock().unwrap().clone_from(&problem.particles.reference_position);
         }
-        let steps = problem.steps;
-        let (sum, young, factor) = Moved(problem, steps).sum();
+        let (sum, young, factor) = sum(&problem, problem.steps);
         let by_young = -9e-6 * young * young * (1.0 + 0.01 * factor);
         Ok(Gradient { value: -3.0 * sum, gradient: vec![by_young, -15.0, -6.0, -3.0] })
     }

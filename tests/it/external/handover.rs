@@ -156,18 +156,7 @@ fn particles_have_the_state_of_the_motion(
     let counts: Vec<usize> = LENGTHS[..d].iter().map(|length| (length / 0.25) as usize).collect();
     let n = counts.iter().product();
     let volume = 0.25_f64.powi(d as i32);
-    let names = [
-        "reference_position",
-        "position",
-        "velocity",
-        "mass",
-        "reference_volume",
-        "volume",
-        "deformation_gradient",
-        "stress",
-        "body",
-        "initial_stress",
-    ];
+    let names = POWERS.map(|(name, _)| name);
     let mut expected = names.map(|_| Vec::new());
     for mut p in 0..n {
         let mut label = Vec::new();

@@ -15,7 +15,6 @@ pub(crate) fn script(then: &str) -> String {
     )
 }
 
-/// Runs `script`, and returns exit status and output.
 fn run(script: &str, more: &[&str]) -> (i32, String) {
     let folder = Folder::with("bar.yaml", bar());
     folder.write("solver.sh", script);
@@ -97,7 +96,6 @@ fn a_gate_fails_with_its_solver() {
     assert_eq!(run(&script("exit 1"), &["--gate"]).0, FAILED);
 }
 
-/// Child processes of a solver must be killed with it.
 #[test]
 fn child_processes_of_a_solver_are_killed() {
     let folder = Folder::with("bar.yaml", bar());

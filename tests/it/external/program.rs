@@ -1,7 +1,7 @@
 //! A correct solver in a shell script.
 
 use super::bar;
-use crate::cli::{FAILED, Folder, SOUND, on_one_grid};
+use crate::cli::{FAILED, Folder, SOUND};
 use crate::common::folder::{assert_contains, flat};
 
 /// First message of a solver of one-dimensional elasticity.
@@ -40,7 +40,6 @@ while read -r m; do
 done
 "#;
 
-/// Creates the script of a solver whose relative error is `error`.
 pub(super) fn solver_of(error: &str) -> String {
     SECOND_ORDER.replace("HELLO", HELLO).replace("(1 + h * h)", &format!("(1 + {error})"))
 }
@@ -76,8 +75,7 @@ fn a_program_is_judged_like_any_method() {
 fn gate_requires_the_claimed_order() {
     let folder = folder();
     let gate = ["run", "bar.yaml", "--solver", SOLVER, "--gate", "--brief"];
-    let found = folder.call(&gate).ended(SOUND);
-    assert!(found.out.contains("pass  short-bar::odd"), "{}", found.out);
+    folder.call(&gate).ended(SOUND);
     let boastful = HELLO.replace(r#""version""#, r#""formal_order":3,"version""#);
     folder.write("solver.sh", SECOND_ORDER.replace("HELLO", &boastful));
     folder.call(&gate).ended(FAILED);
@@ -151,17 +149,6 @@ fn failed_level_runs_again() {
         again.out,
         again.errors
     );
-}
-
-#[test]
-fn cost_measures_the_time_of_a_program() {
-    let folder = folder();
-    folder.write("bar.yaml", on_one_grid(&bar()));
-    let found =
-        folder.call(&["cost", "bar.yaml", "--solver", SOLVER, "--format", "json"]).ended(SOUND);
-    let found: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
-    let text = found.to_string();
-    assert!(text.contains("\"odd\"") && text.contains("\"seconds\""), "{text}");
 }
 
 #[test]

@@ -1,31 +1,24 @@
 //! `run --repeat`: the spread between repeated runs of a level.
 
 use super::bar;
-use super::library::Maker;
 use crate::common::folder::assert_contains;
-use crate::common::valid_suite;
+use crate::common::solver::solver;
+use crate::common::{errors, levels, valid_suite};
+use crate::testing::OwnSolver;
 use approx::assert_relative_eq;
-use mpm_verify::external::{LevelProblem, SolverFactory};
+use mpm_verify::external::SolverFactory;
 use mpm_verify::report;
 use mpm_verify::study::{Runner, under};
-use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
+use mpm_verify::subject::{Failure, RunCounters, Samples, Subject};
 use mpm_verify::suite::Extent;
-use mpm_verify::verify::{CaseOutcome, Exclusion, LevelOutcome, SuiteOutcome};
+use mpm_verify::verify::{Exclusion, LevelOutcome, SuiteOutcome};
 use rstest::rstest;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
-/// Finite differences whose displacements are larger by 0, 3 and 1 times `noise` (m) in successive
-/// runs of a level. Run number `fails` of the finest level fails.
-struct Unsteady {
-    noise: f64,
-    fails: Option<usize>,
-    /// Number of runs for each number of cells.
-    runs: Mutex<BTreeMap<u64, usize>>,
-}
-
+/// A subject whose displacements are larger by `offset` (m), and whose steps fail if `fails`.
 struct Perturbed {
-    solver: Box<dyn Subject>,
+    sound: Box<dyn Subject>,
     offset: f64,
     fails: bool,
 }
@@ -33,57 +26,35 @@ struct Perturbed {
 impl Subject for Perturbed {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         let stopped = Failure::External("stopped".to_owned());
-        if self.fails { Err(stopped) } else { self.solver.step(dt) }
+        if self.fails { Err(stopped) } else { self.sound.step(dt) }
     }
 
     fn sample(&self, samples: &mut Samples) {
-        self.solver.sample(samples);
+        self.sound.sample(samples);
         samples.displacement.iter_mut().for_each(|u| *u += self.offset);
     }
 
     fn counters(&self) -> RunCounters {
-        self.solver.counters()
+        self.sound.counters()
     }
 }
 
-impl SolverFactory for Unsteady {
-    fn name(&self) -> &'static str {
-        "unsteady"
-    }
-
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+/// Runs each level of the suite three times, with displacements that are larger by 0, 3 and 1 times
+/// `noise` (m). Run number `fails` of the finest level fails. Errors are divided by 1e-6 m.
+fn repeated(noise: f64, fails: Option<usize>) -> SuiteOutcome {
+    let runs: Mutex<BTreeMap<u64, usize>> = Mutex::default();
+    let solver = solver("unsteady", |problem| {
         let cells = problem.grid.cells[0];
-        let mut runs = self.runs.lock().unwrap();
+        let mut runs = runs.lock().unwrap();
         let run = runs.entry(cells).or_default();
         *run += 1;
-        let offset = [0.0, 3.0, 1.0][(*run - 1) % 3] * self.noise;
-        let fails = cells >= 12 && self.fails == Some(*run);
-        Ok(Box::new(Perturbed { solver: Maker("differences").subject(problem)?, offset, fails }))
-    }
-}
-
-/// Runs each level of the suite three times with the unsteady solver. Errors are divided by 1e-6 m.
-fn repeated(noise: f64, fails: Option<usize>) -> SuiteOutcome {
-    let solver = Unsteady { noise, fails, runs: Mutex::default() };
+        let offset = [0.0, 3.0, 1.0][(*run - 1) % 3] * noise;
+        let fails = cells >= 12 && fails == Some(*run);
+        Ok(Box::new(Perturbed { sound: OwnSolver.subject(problem)?, offset, fails }))
+    });
     let text = bar().replace("observe:", "judge: {scale: 1e-6}\nobserve:");
     let suite = under(&valid_suite(&text), &solver, false).expect("a convergence study");
     Runner::over(&suite, Extent::Usual).judging(&solver).repeating(3).run(&|| ())
-}
-
-fn levels(case: &CaseOutcome) -> &[LevelOutcome] {
-    &case.convergence().expect("a convergence study").levels
-}
-
-#[test]
-fn a_deterministic_solver_has_no_spread() {
-    let found = repeated(0.0, None);
-    let case = &found.cases[0];
-    for level in levels(case) {
-        assert_eq!(level.spread.map(f64::to_bits), Some(0));
-    }
-    assert_eq!(case.verdict, "converging", "{}", case.reason);
-    let text = report::text(&found);
-    assert!(text.contains("spread between runs, in the norm of the error"), "{text}");
 }
 
 /// The spread of each level is three times the noise, divided by the scale. The errors are those of
@@ -97,14 +68,16 @@ fn a_level_counts_up_to_a_spread_of_a_tenth_of_its_error(
     #[case] finest: Option<Exclusion>,
 ) {
     let steady = repeated(0.0, None);
-    let errors: Vec<f64> = levels(&steady.cases[0]).iter().map(|level| level.error).collect();
+    assert!(report::text(&steady).contains("spread between runs, in the norm of the error"));
+    assert!(levels(&steady.cases[0]).iter().all(|level| level.spread.map(f64::to_bits) == Some(0)));
+    let errors = errors(&steady.cases[0]);
     let error = errors[3];
     assert!(errors[2] > 2.0 * error, "{errors:?}");
     let found = repeated(share * error * 1e-6 / 3.0, None);
     let case = &found.cases[0];
-    for (level, steady) in levels(case).iter().zip(&errors) {
+    for (level, error_of_steady) in levels(case).iter().zip(&errors) {
         assert_relative_eq!(level.spread.expect("a spread"), share * error, max_relative = 1e-6);
-        assert_eq!(level.error, *steady);
+        assert_eq!(level.error, *error_of_steady);
     }
     let exclusions: Vec<_> = levels(case).iter().map(LevelOutcome::exclusion).collect();
     assert_eq!(exclusions, [None, None, None, finest]);

@@ -20,59 +20,49 @@ const TABLE: &str = "t,X,u_x,v_x\n.001,.25,0,0\n.001,.75,0,0\n.002,.25,0,0\n.002
 
 /// Replaces a part of [`TABLE`]; `*` stands for all of it.
 #[rstest]
-#[case::no_number(".75,0,0\n.0", ".75,abc,0\n.0", ":3:10", "`abc` is not a finite number")]
-#[case::nan(".75,0,0\n.0", ".75,NaN,0\n.0", ":3:10", "`NaN` is not a finite number")]
-#[case::infinity("\n.002,.75,0", "\n.002,.75,-inf", ":5:10", "`-inf` is not a finite number")]
-#[case::overflow("\n.002,.75,0", "\n.002,.75,1e999", ":5:10", "`1e999` is not a finite number")]
-#[case::fortran("\n.002,.75,0", "\n.002,.75,1.5D-3", ":5:10", "expected a number such as 0.125")]
-#[case::quoted("\n.002,.75", "\n.002,\".75\"", ":5:6", "without quotes")]
-#[case::empty_cell("\n.002,.75", "\n.002,", ":5:6", "`` is not a finite number")]
-#[case::too_few_cells("\n.002,.75,0,0", "\n.002,.75,0", ":5:1", "found 3 cells, expected 4")]
-#[case::too_many_cells("\n.002,.75,0,0", "\n.002,.75,0,0,7", ":5:14", "found 5 cells")]
-#[case::decimal_comma("\n.002,.75", "\n.002,0,75", ":5:13", "expected points in numbers")]
-#[case::semicolons("*", "t;X;u_x\n0,001;0,25;0\n", ":1:1", "commas between them")]
-#[case::tabs("*", "t\tX\tu_x\n", ":1:1", "unknown column `t\\u{9}X\\u{9}u_x`")]
-#[case::no_names("t,X,u_x,v_x\n", "", ":1:1", "the first line has names")]
-#[case::quoted_names("t,X", "t,\"X\"", ":1:3", "unknown column `\"X\"`")]
-#[case::unknown("v_x", "V_x", ":1:9", "did you mean `v_x`?")]
-#[case::of_another_dimension("v_x", "u_y", ":1:9", "unknown column `u_y`")]
-#[case::initial_state("X", "position_x", ":1:3", "unknown column `position_x`")]
-#[case::doubled_column("v_x", "u_x", ":1:9", "column `u_x` is doubled")]
-#[case::no_displacement("u_x", "F_xx", ":1:1", "lacks the displacement (`u_x`, ...)")]
-#[case::no_label("X,u_x,v_x\n", "u_x,v_x,F_xx\n", ":1:1", "lacks either labels (`X`, ...)")]
-#[case::two_labels("v_x", "particle", ":1:1", "lacks either labels")]
-#[case::no_time("t,X", "F_xx,X", ":1:1", "expected results at t = [0.001, 0.002]")]
-#[case::wrong_time("\n.002,.75", "\n.003,.75", ":5:1", "the nearest one is t = 0.002, X = 0.75")]
-#[case::initial_time("\n.001,.75", "\n0,.75", ":3:1", "no row is expected for t = 0, X = 0.75")]
-#[case::doubled("\n.002,.75", "\n.002,.25", ":5:1", "help: see line 4")]
-#[case::too_many_rows(
+#[case(".75,0,0\n.0", ".75,abc,0\n.0", ":3:10", "`abc` is not a finite number")]
+#[case(".75,0,0\n.0", ".75,NaN,0\n.0", ":3:10", "`NaN` is not a finite number")]
+#[case("\n.002,.75,0", "\n.002,.75,-inf", ":5:10", "`-inf` is not a finite number")]
+#[case("\n.002,.75,0", "\n.002,.75,1e999", ":5:10", "`1e999` is not a finite number")]
+#[case("\n.002,.75,0", "\n.002,.75,1.5D-3", ":5:10", "expected a number such as 0.125")]
+#[case("\n.002,.75", "\n.002,\".75\"", ":5:6", "without quotes")]
+#[case("\n.002,.75", "\n.002,", ":5:6", "`` is not a finite number")]
+#[case("\n.002,.75,0,0", "\n.002,.75,0", ":5:1", "found 3 cells, expected 4")]
+#[case("\n.002,.75,0,0", "\n.002,.75,0,0,7", ":5:14", "found 5 cells")]
+#[case("\n.002,.75", "\n.002,0,75", ":5:13", "expected points in numbers")]
+#[case("*", "t;X;u_x\n0,001;0,25;0\n", ":1:1", "commas between them")]
+#[case("*", "t\tX\tu_x\n", ":1:1", "unknown column `t\\u{9}X\\u{9}u_x`")]
+#[case("t,X,u_x,v_x\n", "", ":1:1", "the first line has names")]
+#[case("t,X", "t,\"X\"", ":1:3", "unknown column `\"X\"`")]
+#[case("v_x", "V_x", ":1:9", "did you mean `v_x`?")]
+#[case("v_x", "u_y", ":1:9", "unknown column `u_y`")]
+#[case("X", "position_x", ":1:3", "unknown column `position_x`")]
+#[case("v_x", "u_x", ":1:9", "column `u_x` is doubled")]
+#[case("u_x", "F_xx", ":1:1", "lacks the displacement (`u_x`, ...)")]
+#[case("X,u_x,v_x\n", "u_x,v_x,F_xx\n", ":1:1", "lacks either labels (`X`, ...)")]
+#[case("v_x", "particle", ":1:1", "lacks either labels")]
+#[case("t,X", "F_xx,X", ":1:1", "expected results at t = [0.001, 0.002]")]
+#[case("\n.002,.75", "\n.003,.75", ":5:1", "the nearest one is t = 0.002, X = 0.75")]
+#[case("\n.001,.75", "\n0,.75", ":3:1", "no row is expected for t = 0, X = 0.75")]
+#[case("\n.002,.75", "\n.002,.25", ":5:1", "help: see line 4")]
+#[case(
     "*",
     "t,X,u_x\n.001,.25,0\n.001,.25,0\n",
     ":3:1",
     "the row of t = 0.001, X = 0.25 is doubled"
 )]
-#[case::missing("\n.002,.75,0,0", "", "", "there is no row for t = 0.002, X = 0.75")]
-#[case::no_rows_at_a_time("*", "t,X,u_x\n.001,.25,0\n.001,.75,0\n", "", "2 of 4 rows are missing")]
-#[case::no_rows("*", "t,X,u_x\n", "", "4 of 4 rows are missing")]
-#[case::empty("*", "", "", "the file is empty")]
-#[case::blank("*", "\u{feff}\n \r\n", "", "the file is empty")]
-#[case::nowhere("\n.002,.75", "\n.002,.8", ":5:6", "the nearest one is t = 0.002, X = 0.75")]
-#[case::millimetres("*", "t,X,u_x\n.001,250,0\n.001,750,0\n", ":2:6", "the labels look like mm")]
-#[case::from_zero(
-    "*",
-    "t,particle,u_x\n.001,0,0\n",
-    ":2:6",
-    "the nearest one is t = 0.001, particle = 1"
-)]
-#[case::fraction("*", "t,particle,u_x\n.001,1.5,0\n", ":2:6", "for t = 0.001, particle = 1.5")]
-#[case::huge_number("*", "t,particle,u_x\n.001,1e300,0\n", ":2:6", "the nearest one is t = 0.00")]
-#[case::negative(
-    "*",
-    "t,particle,u_x\n.001,-1,0\n",
-    ":2:6",
-    "the nearest one is t = 0.001, particle = 1"
-)]
-#[case::no_weight("v_x\n", "weight\n", ":2:12", "expected a positive weight")]
+#[case("\n.002,.75,0,0", "", "", "there is no row for t = 0.002, X = 0.75")]
+#[case("*", "t,X,u_x\n.001,.25,0\n.001,.75,0\n", "", "2 of 4 rows are missing")]
+#[case("*", "t,X,u_x\n", "", "4 of 4 rows are missing")]
+#[case("*", "", "", "the file is empty")]
+#[case("*", "\u{feff}\n \r\n", "", "the file is empty")]
+#[case("\n.002,.75", "\n.002,.8", ":5:6", "the nearest one is t = 0.002, X = 0.75")]
+#[case("*", "t,X,u_x\n.001,250,0\n.001,750,0\n", ":2:6", "the labels look like mm")]
+#[case("*", "t,particle,u_x\n.001,0,0\n", ":2:6", "the nearest one is t = 0.001, particle = 1")]
+#[case("*", "t,particle,u_x\n.001,1.5,0\n", ":2:6", "for t = 0.001, particle = 1.5")]
+#[case("*", "t,particle,u_x\n.001,1e300,0\n", ":2:6", "the nearest one is t = 0.00")]
+#[case("*", "t,particle,u_x\n.001,-1,0\n", ":2:6", "the nearest one is t = 0.001, particle = 1")]
+#[case("v_x\n", "weight\n", ":2:12", "expected a positive weight")]
 fn invalid_table_is_refused(
     #[case] from: &str,
     #[case] to: &str,

@@ -1,8 +1,9 @@
 //! Solvers that a suite lists among its methods.
 
 use super::bar;
-use super::library::Maker;
+use crate::common::solver::solver;
 use crate::common::valid_suite;
+use crate::testing::OwnSolver;
 use mpm_verify::external::SolverFactory;
 use mpm_verify::study::Runner;
 use mpm_verify::suite::yaml::Source;
@@ -10,32 +11,30 @@ use mpm_verify::suite::{ExternalMethod, Suite};
 use mpm_verify::verify::CaseOutcome;
 use rstest::rstest;
 
-/// Creates the bar with an external solver in addition to MPM.
 fn with_entry(entry: &str) -> String {
     bar().replace("  - fem: {element: linear, mass: lumped}", &format!("  - external: {entry}"))
 }
 
-fn under(maker: &Maker, suite: &Suite) -> Vec<CaseOutcome> {
-    let (name, precision) = (maker.name(), maker.precision());
+/// Runs the cases of the solver `differences` and of no other method.
+fn of_solver(suite: &str) -> Vec<CaseOutcome> {
+    let solver = solver("differences", |problem| OwnSolver.subject(problem));
+    let (name, precision) = (solver.name(), solver.precision());
     let method = ExternalMethod { name, formal_order: 3.0, precision };
-    let suite = suite.of_external(method, None).expect("a convergence study");
-    Runner::new(&suite).judging(maker).run(&|| ()).cases
+    let suite = valid_suite(suite).of_external(method, None).expect("a convergence study");
+    Runner::new(&suite).judging(&solver).run(&|| ()).cases
 }
 
 #[test]
 fn a_solver_meets_the_expectation_that_the_suite_states() {
-    let suite = valid_suite(&with_entry("{name: differences}"));
-    let cases = under(&Maker("differences"), &suite);
-    assert_eq!(cases.len(), 1);
-    assert_eq!(cases[0].case, "differences");
+    let cases = of_solver(&with_entry("{name: differences}"));
+    assert_eq!((cases.len(), cases[0].case.as_str()), (1, "differences"));
     assert_eq!(cases[0].because, "linear basis functions have order 2");
     assert!(cases[0].passed() && cases[0].verdict.contains("converging"), "{}", cases[0].reason);
 }
 
 #[test]
 fn solver_with_another_name_is_compared_only_with_theory() {
-    let suite = valid_suite(&with_entry("{name: volumes}"));
-    let cases = under(&Maker("differences"), &suite);
+    let cases = of_solver(&with_entry("{name: volumes}"));
     assert_eq!((cases.len(), cases[0].case.as_str()), (1, "differences"));
     assert_eq!(cases[0].expected, None);
 }
@@ -54,7 +53,7 @@ fn without_its_command_a_solver_is_not_applicable_and_others_are_judged() {
 fn automatic_step_of_a_solver_is_a_share_of_the_crossing_time() {
     let text = with_entry("{name: differences}")
         .replace("until: 0.004, dt: \"h/250\"", "until: 0.05, dt: {courant: 0.05}");
-    let cases = under(&Maker("differences"), &valid_suite(&text));
+    let cases = of_solver(&text);
     let study = cases[0].convergence().expect("a study");
     for level in &study.levels {
         assert!((level.dt / (0.05 * level.h / 10.0) - 1.0).abs() < 0.01, "{}", level.dt);

@@ -3,12 +3,11 @@
 
 use crate::common::folder::{assert_contains, flat};
 use crate::common::read_suite;
-use mpm_verify::external::{LevelProblem, SolverFactory};
+use crate::common::solver::solver;
 use mpm_verify::report;
 use mpm_verify::study::{self, diagnose, preflight, under};
-use mpm_verify::subject::{Subject, SubjectError};
+use mpm_verify::suite::LevelPlan;
 use mpm_verify::suite::yaml::Severity;
-use mpm_verify::suite::{LevelPlan, Suite};
 use mpm_verify::verify::{Diagnosis, KnownCauseKind};
 use rstest::rstest;
 
@@ -18,7 +17,6 @@ const BUDGET: f64 = 60.0;
 /// Budget (s) that is too small for any changed run.
 const NO_RUNS: f64 = 1e-9;
 
-/// A bar that is fixed on the left, with a small-strain wave.
 const BAR: &str = r#"suite: bar
 title: Bar
 source: a textbook
@@ -63,7 +61,6 @@ fn manufactured(grid: &str, faces: &str, u: &str, until: &str, method: &str) -> 
     text.replace("UNTIL", until).replace("\"U\"", &format!("\"{u}\""))
 }
 
-/// Diagnoses the first case.
 fn diagnosis(text: &str, budget: f64) -> Diagnosis {
     let (source, suite) = read_suite(text);
     diagnose(&suite, &source, 0, budget, None).expect("a run").expect("an order")
@@ -76,68 +73,49 @@ fn page(found: &Diagnosis) -> String {
     page
 }
 
-/// An external solver that runs the first method of a suite.
-struct External(Suite);
-
-impl SolverFactory for External {
-    fn name(&self) -> &'static str {
-        "external"
-    }
-
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        let plan = self.0.convergence().expect("a convergence study");
+/// Diagnoses the first method as an external solver.
+fn external_diagnosis(text: &str, budget: f64) -> Diagnosis {
+    let (source, own) = read_suite(text);
+    let plan = own.convergence().expect("a convergence study");
+    let solver = solver("external", |problem| {
         let (first, h) = (plan.refine.levels[0], problem.grid.h);
         let cells = (first.cells as f64 * first.h / h).round() as u64;
         let level = LevelPlan { cells, h, dt: problem.dt, ppc: problem.particles_per_cell };
         study::subject(plan, plan.cases[0].method, level)
-    }
-}
-
-/// Diagnoses the first method as an external solver.
-fn external_diagnosis(text: &str, budget: f64) -> Diagnosis {
-    let (source, suite) = read_suite(text);
-    let solver = External(suite.clone());
-    let suite = under(&suite, &solver, false).expect("a convergence study");
+    });
+    let suite = under(&own, &solver, false).expect("a convergence study");
     diagnose(&suite, &source, 0, budget, Some(&solver)).expect("a run").expect("an order")
 }
 
-#[rstest]
-#[case::of_this_crate(diagnosis)]
-#[case::external(external_diagnosis)]
-fn a_step_beyond_the_stable_step_is_the_cause(#[case] diagnosis: fn(&str, f64) -> Diagnosis) {
-    let found = diagnosis(&BAR.replace("0.2*h/c", "4*h/c"), BUDGET);
-    let text = page(&found);
-    assert_contains(
-        &text,
-        &["the step is longer than the stable step, on all levels", "4.00 times", "2.00 [2.00"],
-    );
-    assert!(text.contains("Remedy: `dt: {courant: 0.5}`") && found.runs.is_empty(), "{text}");
+/// Returns the diagnoses of the first method, also as an external solver.
+fn both(text: &str, budget: f64) -> [Diagnosis; 2] {
+    [diagnosis(text, budget), external_diagnosis(text, budget)]
 }
 
 #[rstest]
-#[case::of_this_crate(diagnosis)]
-#[case::external(external_diagnosis)]
-fn unstable_steps_on_the_first_levels_are_named(#[case] diagnosis: fn(&str, f64) -> Diagnosis) {
-    let found = diagnosis(&BAR.replace("0.2*h/c", "40*h^2/c"), BUDGET);
-    assert_contains(
-        &page(&found),
-        &["longer than the stable step, on the levels with 8 cells, 12 cells, 16 cells."],
-    );
-}
-
-/// The time step is a multiple of the stable step, with a factor above 1.
-#[test]
-fn automatic_step_beyond_the_stable_step_is_the_cause() {
-    let found = diagnosis(&BAR.replace("\"0.2*h/c\"", "{courant: 4}"), BUDGET);
-    assert_contains(&page(&found), &["longer than the stable step, on all levels", "2.00 [2.00"]);
+#[case::on_all_levels("\"4*h/c\"", "on all levels", "4.00 times")]
+#[case::on_the_first_levels("\"40*h^2/c\"", "on the levels with 8 cells, 12 cells, 16 cells.", "")]
+#[case::automatic("{courant: 4}", "on all levels", "2.00 [2.00")]
+fn a_step_beyond_the_stable_step_is_the_cause(
+    #[case] dt: &str,
+    #[case] levels: &str,
+    #[case] words: &str,
+) {
+    for found in both(&BAR.replace("\"0.2*h/c\"", dt), BUDGET) {
+        let text = page(&found);
+        assert_contains(&text, &[&format!("longer than the stable step, {levels}"), words]);
+        if dt == "\"4*h/c\"" {
+            assert_contains(&text, &["Remedy: `dt: {courant: 0.5}`", "2.00 [2.00"]);
+            assert!(found.runs.is_empty(), "{text}");
+        }
+    }
 }
 
 #[rstest]
 #[case::stable("0.9*h/c")]
 #[case::short("0.1*h/c")]
 fn a_stable_step_is_no_cause(#[case] dt: &str) {
-    for diagnosis in [diagnosis, external_diagnosis] {
-        let found = diagnosis(&BAR.replace("0.2*h/c", dt), NO_RUNS);
+    for found in both(&BAR.replace("0.2*h/c", dt), NO_RUNS) {
         assert!(found.finding(KnownCauseKind::UnstableStep).is_none(), "{found:#?}");
     }
 }
@@ -148,7 +126,7 @@ fn a_stable_step_is_no_cause(#[case] dt: &str) {
 fn a_wall_that_moves_along_its_normal_is_the_cause(#[case] u: &str, #[case] velocity: &str) {
     let faces = format!("left: fixed, right: {{velocity: {velocity}}}");
     let text = manufactured("", &faces, &u.replace('v', "0.5"), "1", LINEAR);
-    for found in [diagnosis(&text, BUDGET), external_diagnosis(&text, BUDGET)] {
+    for found in both(&text, BUDGET) {
         let text = page(&found);
         assert_contains(
             &text,
@@ -162,18 +140,15 @@ fn a_wall_that_moves_along_its_normal_is_the_cause(#[case] u: &str, #[case] velo
 }
 
 /// The end of the bar moves by 0.05 m, but the grid ends at the end of the bar.
-#[rstest]
-#[case::of_this_crate(diagnosis)]
-#[case::external(external_diagnosis)]
-fn a_larger_grid_is_recommended_for_a_free_end(#[case] diagnosis: fn(&str, f64) -> Diagnosis) {
+#[test]
+fn a_larger_grid_is_recommended_for_a_free_end() {
     let grid = "  grid: {from: [0], to: [1]}\n";
     let u = "0.05*sin(pi*X/2)*sin(5*pi*t)";
-    let found = diagnosis(&manufactured(grid, "left: fixed", u, "0.1", LINEAR), BUDGET);
-    assert!(found.finding(KnownCauseKind::OutsideGrid).is_some() && found.runs.is_empty());
-    assert_contains(
-        &page(&found),
-        &["the grid ends where the body moves to", "a larger `grid` in `scene`"],
-    );
+    for found in both(&manufactured(grid, "left: fixed", u, "0.1", LINEAR), BUDGET) {
+        assert!(found.finding(KnownCauseKind::OutsideGrid).is_some() && found.runs.is_empty());
+        let words = ["the grid ends where the body moves to", "a larger `grid` in `scene`"];
+        assert_contains(&page(&found), &words);
+    }
 }
 
 /// Due to rounding, the last particle is at 0.9000000000000001 m.
@@ -185,10 +160,8 @@ fn a_particle_on_a_wall_is_named_with_the_refusal() {
     let text = text.replace("methods:", "particles: {shift: [0.5]}\nmethods:");
     let (source, suite) = read_suite(&text);
     let refused = diagnose(&suite, &source, 0, BUDGET, None).expect_err("a particle is lost");
-    assert_contains(
-        &refused,
-        &["left the domain", "particles start on a wall", "a smaller `shift`"],
-    );
+    let parts = ["left the domain", "particles start on a wall", "a smaller `shift`"];
+    assert_contains(&refused, &parts);
     assert!(!refused.contains("larger `grid`"), "{refused}");
 }
 
@@ -210,7 +183,7 @@ fn a_kink_in_the_exact_solution_comes_before_partial_remedies(
     #[case] norm: &str,
     #[case] limit: &str,
 ) {
-    for found in [diagnosis(&impact(norm), BUDGET), external_diagnosis(&impact(norm), BUDGET)] {
+    for found in both(&impact(norm), BUDGET) {
         let text = page(&found);
         assert_contains(&text, &["Cause: the exact solution is not smooth: it has a kink", limit]);
         assert!(!text.contains("mass: consistent") && !found.runs.is_empty(), "{text}");
@@ -228,8 +201,9 @@ fn a_function_with_a_kink_outside_the_body_is_no_cause() {
     assert!(found.finding(KnownCauseKind::NotSmooth).is_none(), "{found:#?}");
 }
 
-/// Creates a pulse of width 0.03 m in a periodic bar. The coarsest cells are nearly as wide.
-fn pulse(cells: &str) -> String {
+/// The pulse in a periodic bar has a width of 0.03 m. The coarsest cells are nearly as wide.
+#[test]
+fn removal_of_too_coarse_levels_is_recommended() {
     let exact = "a*exp(-((X - 0.4 - c*t)/0.03)^2)";
     let velocity = "2*a*c*(X - 0.4)/0.03^2*exp(-((X - 0.4)/0.03)^2)";
     let text = BAR.replace("a*omega*sin(pi*X/2)", velocity);
@@ -238,18 +212,10 @@ fn pulse(cells: &str) -> String {
     let initial = "  initial_displacement: [\"a*exp(-((X - 0.4)/0.03)^2)\"]\n  initial_velocity";
     let text = text.replace("left: fixed", "left: periodic, right: periodic");
     let text = text.replace("  initial_velocity", initial).replace("until: 0.4", "until: 0.02");
-    text.replace("8, 12, 16, 24, 32", cells)
-}
-
-#[rstest]
-#[case::of_this_crate(diagnosis)]
-#[case::external(external_diagnosis)]
-fn removal_of_too_coarse_levels_is_recommended(#[case] diagnosis: fn(&str, f64) -> Diagnosis) {
-    let found = diagnosis(&pulse("40, 80, 160, 320, 640"), NO_RUNS);
-    assert_contains(
-        &page(&found),
-        &["Cause: the first levels are too coarse", "Remedy: leave out the level with 40 cells"],
-    );
+    for found in both(&text.replace("8, 12, 16, 24, 32", "40, 80, 160, 320, 640"), NO_RUNS) {
+        let cause = "Cause: the first levels are too coarse";
+        assert_contains(&page(&found), &[cause, "Remedy: leave out the level with 40 cells"]);
+    }
 }
 
 /// MLS has order 1 at fixed walls, and order 2 if there are none.
@@ -289,12 +255,10 @@ fn of_check(text: &str) -> Vec<Severity> {
 fn equilibrium_without_damping_is_the_cause() {
     let text = column("  loads:\n    - gravity: [-g]\n");
     assert_eq!(of_check(&text), [Severity::Warning]);
-    for found in [diagnosis(&text, BUDGET), external_diagnosis(&text, BUDGET)] {
+    for found in both(&text, BUDGET) {
         let text = page(&found);
-        assert_contains(
-            &text,
-            &["nothing removes energy", "the body oscillates about its equilibrium"],
-        );
+        let parts = ["nothing removes energy", "the body oscillates about its equilibrium"];
+        assert_contains(&text, &parts);
         assert!(found.runs.is_empty(), "{text}");
     }
 }

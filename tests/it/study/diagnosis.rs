@@ -62,23 +62,15 @@ fn a_cause_is_found_in_time(#[case] suite: &str, #[case] case: &str, #[case] cau
 }
 
 #[rstest]
-fn no_cause_is_named_without_a_defect(
-    #[values(
-        ("damped-bar", "mpm-linear-flip-musl"),
-        ("damped-bar", "mpm-linear-apic-musl"),
-        ("damped-bar", "mpm-cpgimp-flip-musl"),
-        ("damped-bar", "mpm-quadratic-bspline-apic-musl"),
-        ("damped-bar", "mpm-linear-flip-usf"),
-        ("heat-temporal-order", "heat-linear"),
-        ("heat-temporal-order", "heat-cpdi"),
-        ("heat-temporal-order", "heat-quadratic-bspline"),
-        ("vibrating-bar", "mpm-linear-flip-musl"),
-        ("vibrating-bar", "mpm-linear-flip-usl"),
-    )]
-    (suite, case): (&str, &str),
-) {
-    let found = diagnosis(suite, case).expect("an order");
-    assert!(found.is_sound() && found.runs.is_empty(), "{found:#?}");
+#[case("damped-bar", "mpm-linear-flip-musl mpm-linear-apic-musl mpm-cpgimp-flip-musl")]
+#[case("damped-bar", "mpm-quadratic-bspline-apic-musl mpm-linear-flip-usf")]
+#[case("heat-temporal-order", "heat-linear heat-cpdi heat-quadratic-bspline")]
+#[case("vibrating-bar", "mpm-linear-flip-musl mpm-linear-flip-usl")]
+fn no_cause_is_named_without_a_defect(#[case] suite: &str, #[case] cases: &str) {
+    for case in cases.split(' ') {
+        let found = diagnosis(suite, case).expect("an order");
+        assert!(found.is_sound() && found.runs.is_empty(), "{case}: {found:#?}");
+    }
 }
 
 #[test]

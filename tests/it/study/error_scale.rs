@@ -1,7 +1,8 @@
 //! Scales for comparing errors and work between cases, for a bar with an exact solution.
 
 use crate::cli::BAR;
-use crate::common::valid_suite;
+use crate::common::cases;
+use crate::common::solver::{Solver, prescribed, solver};
 use approx::assert_relative_eq;
 use mpm_verify::prelude::*;
 use mpm_verify::subject::Precision;
@@ -13,8 +14,7 @@ use rstest::rstest;
 fn scale(from: &str, to: &str) -> ErrorScale {
     let text = BAR.replace(from, to);
     assert!(text != BAR || from == to, "no `{from}`");
-    let outcome = Runner::new(&valid_suite(&text)).run(&|| ());
-    outcome.cases[0].convergence().unwrap().error_scale.clone()
+    cases(&text)[0].convergence().unwrap().error_scale.clone()
 }
 
 /// The largest displacement is that of the free end, 1e-3 sin(omega t)/omega, an eighth of a period
@@ -34,44 +34,6 @@ fn size_is_the_largest_displacement() {
 #[case::with_its_square("dt: \"h^2/63\"", 3.0)]
 fn work_grows_with_the_steps(#[case] dt: &str, #[case] growth: f64) {
     assert_relative_eq!(scale("dt: 1e-3", dt).growth, growth, max_relative = 0.05);
-}
-
-/// A solver whose bodies do not move.
-struct Still(Precision);
-
-struct Rest(LevelProblem);
-
-impl Subject for Rest {
-    fn step(&mut self, _: f64) -> Result<(), Failure> {
-        Ok(())
-    }
-
-    fn sample(&self, samples: &mut Samples) {
-        samples.restart(1);
-        for x in &self.0.particles.reference_position {
-            samples.push(&[*x], &[0.0], &[0.0], 1.0);
-        }
-        samples.stress = vec![0.0; samples.label.len()];
-        samples.deformation_gradient = vec![1.0; samples.label.len()];
-    }
-
-    fn counters(&self) -> RunCounters {
-        RunCounters::new(0)
-    }
-}
-
-impl SolverFactory for Still {
-    fn name(&self) -> &'static str {
-        "still"
-    }
-
-    fn precision(&self) -> Precision {
-        self.0
-    }
-
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        Ok(Box::new(Rest(problem)))
-    }
 }
 
 const STRETCHED: &str = r#"suite: stretched
@@ -106,7 +68,13 @@ fn rounding_errors_are_those_of_the_largest_number(
     let text = STRETCHED.replace("OF", of);
     let source = Source::from_text("bar.yaml", text).expect("a text").trusted();
     let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
-    let solver = Still(precision);
+    let still = solver("still", |problem| {
+        Ok(prescribed(problem, |problem, _, samples| {
+            samples.stress = vec![0.0; problem.particles.len()];
+            samples.deformation_gradient = vec![1.0; problem.particles.len()];
+        }))
+    });
+    let solver = Solver { precision, ..still };
     let gated = under(&suite, &solver, true).expect("a study");
     let case = Runner::new(&gated).judging(&solver).case(0, &|| ());
     let study = case.convergence().expect(&case.reason);

@@ -1,48 +1,24 @@
 //! References on a fine grid, and errors that have no order.
 
-use crate::common::{edited, valid_suite};
-use mpm_verify::study::Runner;
-use mpm_verify::verify::{CaseOutcome, Convergence};
+use crate::cli::BAR;
+use crate::common::{cases, edited, errors};
+use mpm_verify::verify::Convergence;
 
-/// A vibrating bar that is compared with its formula and with a run on 192 cells.
-const BAR: &str = r#"suite: bar
-title: Vibrating bar
-source: a test
-
-parameters:
-  c: 10      # wave speed (m/s)
-  v0: 1e-4   # largest initial velocity (m/s)
-
-scene:
-  dimension: 1
-  body: {box: {from: [0], to: [1]}}
-  material: {linear_elastic: {young: "c^2", poisson: 0, density: 1}}
-  boundary: {left: fixed}
-  initial_velocity: ["v0*sin(pi*X/2)"]
-
-exact:
-  equation: small_strain
-  displacement: ["v0/(pi*c/2)*sin(pi*X/2)*sin(pi*c*t/2)"]
-
-reference: {same_method: {cells: 192}}
-
-run: {until: 0.1, dt: "h/(4*c)", instants: 4}
-refine: {cells: [8, 12, 16, 24], ppc: 4}
-
-methods:
-  - mpm: {basis: [linear, cpgimp], transfer: flip, scheme: musl, start: half_step_back}
-  - fem: {element: linear, mass: lumped, start: half_step_back}
-
-judge: {norm: max_rms}
-
-expect:
-  - order: [1.95, 2.05]
-    because: a test
-"#;
-
-fn cases(text: &str) -> Vec<CaseOutcome> {
-    let suite = valid_suite(text);
-    Runner::new(&suite).run(&|| ()).cases
+/// Creates a vibrating bar that is compared with its formula and with a run on 192 cells.
+fn bar(dt: &str) -> String {
+    let run = format!("{{until: 0.1, dt: \"{dt}\", instants: 4}}");
+    let edits = [
+        ("1e-3*sin", "1e-4*sin"),
+        ("1e-3*sin", "1e-4*sin"),
+        ("{until: 0.05, dt: 1e-3}", run.as_str()),
+        ("run:", "reference: {same_method: {cells: 192}}\nrun:"),
+        ("[4, 6, 8, 12]", "[8, 12, 16, 24]"),
+        ("basis: linear,", "basis: [linear, cpgimp], start: half_step_back,"),
+        ("mass: lumped", "mass: lumped, start: half_step_back"),
+        ("observe: {at: [0.5]}", "judge: {norm: max_rms}"),
+        ("[1.7, 2.3]", "[1.95, 2.05]"),
+    ];
+    edited(BAR, &edits)
 }
 
 fn order(study: &Convergence) -> f64 {
@@ -53,7 +29,7 @@ fn order(study: &Convergence) -> f64 {
 /// each cell: at the labels of a level it is up to twice its mean.
 #[test]
 fn a_fine_grid_and_a_formula_give_the_same_order() {
-    let cases = cases(BAR);
+    let cases = cases(&bar("h/40"));
     let truths = ["-vs-exact", "-vs-fine-grid"];
     for pair in cases.chunks(2) {
         let [exact, fine] = [0, 1].map(|k| {
@@ -75,8 +51,7 @@ fn a_fine_grid_and_a_formula_give_the_same_order() {
 /// The time step is stable on the levels, but four times too long on the fine grid.
 #[test]
 fn a_case_without_its_fine_grid_is_refused() {
-    let unstable = BAR.replace("\"h/(4*c)\"", "\"0.5/(24*c)\"");
-    for case in cases(&unstable) {
+    for case in cases(&bar("0.5/240")) {
         let is_fine = case.case.ends_with("-vs-fine-grid");
         assert_eq!(is_fine, case.study.is_none(), "{}: {}", case.case, case.reason);
         assert_eq!(is_fine, case.reason.starts_with("reference: "), "{}", case.reason);
@@ -90,21 +65,16 @@ fn a_case_without_its_fine_grid_is_refused() {
 fn settlements_of_stiff_soil_are_proportional_to_the_load() {
     let footing = include_str!("../../../verification/soils/strip-footing-load-steps.yaml");
     let (footing, _) = footing.split_once("expect:").unwrap();
-    let errors = |pressure: &str| {
+    let errors_under = |pressure: &str| {
         let edits = [
             ("E: 1000 ", "E: 1e8 "),
             ("c: 1 ", "c: 1e5 "),
             ("q: 5 ", pressure),
             ("same_method: {cells: 32}", "same_method: {cells: 64}"),
         ];
-        let text = edited(footing, &edits);
-        let errors = |case: &CaseOutcome| -> Vec<f64> {
-            let study = case.convergence().expect("a convergence study");
-            study.levels.iter().map(|level| level.error).collect()
-        };
-        cases(&text).iter().flat_map(errors).collect::<Vec<f64>>()
+        cases(&edited(footing, &edits)).iter().flat_map(errors).collect::<Vec<f64>>()
     };
-    let (large, small) = (errors("q: 1e4 "), errors("q: 10 "));
+    let (large, small) = (errors_under("q: 1e4 "), errors_under("q: 10 "));
     assert_eq!(large.len(), 6);
     for (large, small) in large.iter().zip(&small) {
         assert!((large - small).abs() <= 5e-4, "{large:e} and {small:e}");

@@ -1,8 +1,6 @@
 //! Loads that depend on the displacement: their effect in this solver and on the stable time step.
 
-use crate::common::valid_suite;
-use mpm_verify::study::Runner;
-use mpm_verify::verify::{CaseOutcome, LevelOutcome};
+use crate::common::{cases, levels};
 use rstest::rstest;
 
 /// A free bar on springs that act on its whole displacement, in six steps of 1/w. The leapfrog of
@@ -68,15 +66,6 @@ refine: {cells: [8, 16], ppc: 2}
 methods:
   - mpm: {basis: linear, transfer: flip, scheme: [usl, musl], start: half_step_back}
 "#;
-
-fn cases(text: &str) -> Vec<CaseOutcome> {
-    let suite = valid_suite(text);
-    Runner::new(&suite).run(&|| ()).cases
-}
-
-fn levels(case: &CaseOutcome) -> &[LevelOutcome] {
-    &case.convergence().expect("a convergence study").levels
-}
 
 #[rstest]
 #[case::bar(FREE, 1.0, 14)]

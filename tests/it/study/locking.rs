@@ -1,7 +1,6 @@
 //! Volumetric locking: compares the errors of one motion for two Poisson's ratios, level by level.
 
-use crate::common::valid_suite;
-use mpm_verify::study::Runner;
+use crate::common;
 use rstest::rstest;
 
 const SHEARS: &str =
@@ -18,10 +17,7 @@ fn errors(nu: &str, method: &str, cells: &str) -> Vec<f64> {
     assert!(text.contains(levels));
     let text = text.replace(levels, &format!("cells: [{cells}]"));
     let text = format!("{text}methods:\n  - mpm: {{{method}, start: half_step_back}}\n");
-    let suite = valid_suite(&text);
-    let outcome = Runner::new(&suite).case(0, &|| ());
-    let study = outcome.convergence().expect("a convergence study");
-    study.levels.iter().map(|level| level.error).collect()
+    common::errors(&common::cases(&text)[0])
 }
 
 #[rstest]

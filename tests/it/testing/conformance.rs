@@ -2,6 +2,7 @@
 //! violates only this rule.
 
 use super::own_solver::{OwnSolver, SWINGING_BAR};
+use crate::common::solver::{Solver, solver};
 use crate::common::{built_in_suite, valid_suite};
 use mpm_verify::prelude::*;
 use mpm_verify::study;
@@ -9,9 +10,8 @@ use mpm_verify::testing::conformance_on;
 use rstest::rstest;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A violation of the contract.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Fault {
+pub(super) enum Fault {
     Nothing,
     NoDimension,
     NoPoint,
@@ -45,13 +45,13 @@ enum Fault {
 }
 
 /// The built-in solver on a level, with a fault.
-struct FaultySubject {
-    sound: Box<dyn Subject>,
-    fault: Fault,
+pub(super) struct FaultySubject {
+    pub(super) sound: Box<dyn Subject>,
+    pub(super) fault: Fault,
     /// Number of steps so far.
-    steps: u64,
+    pub(super) steps: u64,
     /// Number of the subject among the subjects of its factory.
-    number: usize,
+    pub(super) number: usize,
 }
 
 impl Subject for FaultySubject {
@@ -230,30 +230,15 @@ fn solver_of_the_example_meets_the_contract() {
     assert!(breaches.is_empty(), "{breaches:#?}");
 }
 
-/// A solver that refuses every problem.
-struct Refuses;
-
-impl SolverFactory for Refuses {
-    fn name(&self) -> &'static str {
-        "refuses"
-    }
-
-    fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
-        if needs.dimension == 2 { vec!["dimensions: 2".to_owned()] } else { Vec::new() }
-    }
-
-    fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        Err("a bad day".into())
-    }
-}
-
 #[test]
 fn solver_without_a_supported_suite_gets_the_reason() {
-    let breaches = conformance(&Refuses);
+    let able = Some(Capabilities::of(&[1], &["linear_elastic"], &["free", "fixed"], &[]));
+    let refusing = Solver { able, ..solver("refusing", |_| Err("a bad day".into())) };
+    let breaches = conformance(&refusing);
     assert_eq!(breaches.len(), 1, "{breaches:#?}");
     for words in ["problem: ", "vibrating-bar: a bad day", "the solver lacks dimensions: 2"] {
         assert!(breaches[0].to_string().contains(words), "{}", breaches[0]);
     }
-    let breaches = conformance_on(&Refuses, &valid_suite(SWINGING_BAR));
+    let breaches = conformance_on(&refusing, &valid_suite(SWINGING_BAR));
     assert!(breaches[0].seen.contains("a bad day"), "{breaches:#?}");
 }

@@ -1,7 +1,9 @@
 //! Suites of a folder as tests: suites that pass, that fail, and that do neither.
 
+use super::conformance::{Fault, FaultySubject};
 use super::own_solver::{OwnSolver, SWINGING_BAR};
 use crate::common::folder::Folder;
+use crate::common::solver::solver;
 use mpm_verify::prelude::*;
 
 const SNAPSHOT: &str = include_str!("../../../examples/own_solver/suites/swinging-bar.snap");
@@ -74,40 +76,14 @@ fn a_report_without_a_snapshot_fails() {
     assert!(!folder.path().join("suites/swinging-bar.snap").exists());
 }
 
-/// The solver of the example, which reports that it does no work.
-struct Idle;
-
-/// Subject of the solver `Idle`.
-struct IdleSubject(Box<dyn Subject>);
-
-impl Subject for IdleSubject {
-    fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        self.0.step(dt)
-    }
-
-    fn sample(&self, samples: &mut Samples) {
-        self.0.sample(samples);
-    }
-
-    fn counters(&self) -> RunCounters {
-        RunCounters::new(0)
-    }
-}
-
-impl SolverFactory for Idle {
-    fn name(&self) -> &'static str {
-        "idle"
-    }
-
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        Ok(Box::new(IdleSubject(OwnSolver.subject(problem)?)))
-    }
-}
-
 #[test]
 fn breach_of_the_contract_fails_its_own_test() {
     let folder = folder();
-    let idle = SuiteFolder::new(folder.path().join("suites")).judging(Idle);
+    let idle = solver("idle", |problem| {
+        let (sound, fault) = (OwnSolver.subject(problem)?, Fault::NoWork);
+        Ok(Box::new(FaultySubject { sound, fault, steps: 0, number: 0 }))
+    });
+    let idle = SuiteFolder::new(folder.path().join("suites")).judging(idle);
     assert!(passes(&idle, Some("swinging-bar::idle")));
     assert!(!passes(&idle, Some("swinging-bar::conformance")));
 }

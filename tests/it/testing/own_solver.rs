@@ -6,7 +6,7 @@ pub(crate) mod solver;
 #[path = "../../../examples/own_solver/subject.rs"]
 mod subject;
 
-use crate::common::valid_suite;
+use crate::common::{errors, valid_suite};
 use mpm_verify::prelude::*;
 use rstest::rstest;
 pub(crate) use subject::OwnSolver;
@@ -14,15 +14,8 @@ pub(crate) use subject::OwnSolver;
 /// Maximum difference of an error, relative to the largest error of the levels.
 const TOLERANCE: f64 = 1e-8;
 
-/// The suite of the example.
 pub(crate) const SWINGING_BAR: &str =
     include_str!("../../../examples/own_solver/suites/swinging-bar.yaml");
-
-/// Returns the judged errors, level by level.
-fn errors(outcome: &CaseOutcome) -> Vec<f64> {
-    let study = outcome.convergence().expect("a convergence study");
-    study.levels.iter().map(|level| level.error).collect()
-}
 
 #[rstest]
 #[case::as_it_is(SWINGING_BAR.to_owned())]

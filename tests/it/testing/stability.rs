@@ -2,6 +2,7 @@
 
 use super::own_solver::OwnSolver;
 use super::own_solver::solver::Bar;
+use crate::common::solver::{NewSubject, Solver, solver};
 use crate::common::valid_suite;
 use mpm_verify::prelude::*;
 use mpm_verify::study::lacking;
@@ -59,21 +60,11 @@ impl Subject for WatchedBar {
     }
 }
 
-/// Creates watched bars.
-struct WatchedSolver;
-
-impl SolverFactory for WatchedSolver {
-    fn name(&self) -> &'static str {
-        "watched"
-    }
-
-    fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
-        let mut able = Capabilities::of(&[1], &["linear_elastic"], &["free", "fixed"], &[]);
-        able.columns = vec!["stress".to_owned()];
-        able.lacking(needs)
-    }
-
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+/// Creates a solver of watched bars.
+fn watched() -> Solver<impl Fn(LevelProblem) -> NewSubject + Sync> {
+    let mut able = Capabilities::of(&[1], &["linear_elastic"], &["free", "fixed"], &[]);
+    able.columns = vec!["stress".to_owned()];
+    let solver = solver("watched", |problem| {
         let (grid, start) = (problem.grid, problem.particles);
         for (name, column) in start.columns() {
             assert_eq!(column.len(), start.len(), "{name}");
@@ -90,20 +81,8 @@ impl SolverFactory for WatchedSolver {
             visits: 0,
         };
         Ok(Box::new(WatchedBar(bar, start)))
-    }
-}
-
-/// A solver that does not report its missing capabilities in advance.
-struct Silent;
-
-impl SolverFactory for Silent {
-    fn name(&self) -> &'static str {
-        "silent"
-    }
-
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        OwnSolver.subject(problem)
-    }
+    });
+    Solver { able: Some(able), ..solver }
 }
 
 fn judged(text: &str, solver: &dyn SolverFactory) -> CaseOutcome {
@@ -118,7 +97,7 @@ fn rows(outcome: &CaseOutcome) -> &[StabilityRow] {
 #[test]
 fn equal_algorithms_have_equal_growth() {
     let ours = Runner::new(&valid_suite(MOVING_BAR)).case(0, &|| ());
-    let theirs = judged(MOVING_BAR, &WatchedSolver);
+    let theirs = judged(MOVING_BAR, &watched());
     assert_eq!((theirs.case.as_str(), theirs.result().name()), ("watched", "explored"));
     let verdicts: Vec<&str> =
         rows(&theirs).iter().map(|row| row.trial.as_ref().unwrap().verdict.name()).collect();
@@ -138,7 +117,7 @@ fn limit_is_found_by_runs() {
         "sweep: {rho: [1, 4]}\ncritical: {parameter: C, from: 0.1, to: 4}",
     );
     let ours = Runner::new(&valid_suite(&text)).case(0, &|| ());
-    let theirs = judged(&text, &WatchedSolver);
+    let theirs = judged(&text, &watched());
     let limits = |outcome: &CaseOutcome| -> Vec<_> {
         rows(outcome).iter().map(|row| row.critical.as_ref().unwrap().observed).collect()
     };
@@ -151,27 +130,12 @@ fn solver_without_stress_or_totals_is_not_applicable() {
     let outcome = judged(MOVING_BAR, &OwnSolver);
     assert_eq!(outcome.result().name(), "not applicable");
     assert_eq!(outcome.lacks, ["columns: stress"]);
-    let outcome = judged(MOVING_BAR, &Silent);
+    let outcome = judged(MOVING_BAR, &solver("silent", |problem| OwnSolver.subject(problem)));
     assert_eq!(
         (outcome.result().name(), outcome.verdict.as_str()),
         ("not applicable", "not applicable")
     );
     assert!(outcome.reason.contains("sends no totals"), "{}", outcome.reason);
-}
-
-/// A solver that keeps the problems of all runs, and runs none of them.
-#[derive(Default)]
-struct Recorder(Mutex<Vec<LevelProblem>>);
-
-impl SolverFactory for Recorder {
-    fn name(&self) -> &'static str {
-        "recorder"
-    }
-
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        self.0.lock().expect("a list").push(problem);
-        Err("it runs nothing".into())
-    }
 }
 
 /// A plate starts with F = (1.2, -0.3; 0.4, 1.05), with and without random numbers.
@@ -191,9 +155,13 @@ fn problem_of_a_trial_has_its_start_and_its_steps(#[values("", ", perturb: 1e-3"
         .replace("ppc: 2", "ppc: 4")
         .replace(", perturb: 1e-9", perturb)
         .replace("[0.2, 0.5, 3]", "[0.5]");
-    let solver = Recorder::default();
-    judged(&text, &solver);
-    let problems = solver.0.into_inner().expect("a list");
+    let problems = Mutex::new(Vec::new());
+    let recorder = solver("recorder", |problem| {
+        problems.lock().expect("a list").push(problem);
+        Err("it runs nothing".into())
+    });
+    judged(&text, &recorder);
+    let problems = problems.lock().expect("a list");
     let [problem] = &problems[..] else { panic!("{} problems", problems.len()) };
     // 0.5 h/c with c = sqrt(100/4)
     let steps = (problem.steps, problem.dt, problem.until, problem.load_steps);
@@ -240,6 +208,6 @@ fn study_beyond_the_protocol_is_listed_as_lacking(
     #[case] words: &str,
 ) {
     let suite = valid_suite(&MOVING_BAR.replace(from, to));
-    let lacks = lacking(&suite, &WatchedSolver);
+    let lacks = lacking(&suite, &watched());
     assert_eq!(lacks, [format!("{words}, which the protocol does not support")]);
 }
