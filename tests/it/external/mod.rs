@@ -19,7 +19,6 @@ mod results;
 mod several;
 mod single_precision;
 mod spectrum;
-mod stated;
 #[cfg(unix)]
 mod values;
 

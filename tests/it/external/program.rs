@@ -102,10 +102,10 @@ fn studies_of_method_internals_are_skipped() {
     assert!(found.errors.contains("grid-crossing: skipped"), "{}", found.errors);
 }
 
-/// Creates a solver that writes a line into `log` for each problem that it accepts.
+/// Creates a solver that writes the number of its process into `log` for each accepted problem.
 fn logged() -> Folder {
     let folder = folder();
-    let logging = "echo problem >>log\necho '{\"type\":\"ready\"}'";
+    let logging = "echo $$ >>log\necho '{\"type\":\"ready\"}'";
     let script = folder.read("solver.sh").replace("echo '{\"type\":\"ready\"}'", logging);
     folder.write("solver.sh", script);
     folder
@@ -135,9 +135,8 @@ fn finished_levels_are_reused_only_for_the_same_solver() {
 #[test]
 fn failed_level_runs_again() {
     let folder = logged();
-    let ready = "echo problem >>log";
-    let broken =
-        folder.read("solver.sh").replace(ready, "[ -e well ] || exit 3\necho problem >>log");
+    let ready = "echo $$ >>log";
+    let broken = folder.read("solver.sh").replace(ready, "[ -e well ] || exit 3\necho $$ >>log");
     folder.write("solver.sh", broken);
     let first = folder.call(&KEPT);
     assert!(first.out.contains("exit status 3"), "{}{}", first.out, first.errors);
@@ -194,4 +193,33 @@ fn case_that_a_program_refuses_is_not_diagnosed() {
     let found = folder.call(&["diagnose", "bar.yaml", "--solver", SOLVER]);
     assert_eq!(found.code, crate::cli::BAD_INPUT, "{}{}", found.out, found.errors);
     assert!(found.errors.contains("is not applicable: the solver lacks"), "{}", found.errors);
+}
+
+/// Each run of each of the four levels must have its own process.
+#[test]
+fn each_run_has_a_new_process() {
+    let folder = logged();
+    let found = folder.call(&["run", "bar.yaml", "--solver", SOLVER, "--repeat", "3"]).ended(SOUND);
+    assert!(found.out.contains("spread between runs"), "{}", found.out);
+    let log = folder.read("log");
+    let mut processes: Vec<&str> = log.lines().collect();
+    processes.sort_unstable();
+    processes.dedup();
+    assert_eq!(processes.len(), 12, "{log}");
+}
+
+#[test]
+fn a_repetition_without_a_spread_is_refused() {
+    let folder = Folder::with("bar.yaml", bar());
+    for (arguments, reason) in [
+        (&["--repeat", "1"][..], "--repeat 1: a spread needs two runs or more"),
+        (&["--repeat", "0"], "--repeat 0: a spread needs two runs or more"),
+        (&["--repeat", "101"], "--repeat 101: expected a number from 2 to 100"),
+        (&["--repeat", "-3"], "expected a whole number"),
+        (&["--repeat", "two"], "expected a whole number"),
+        (&["--repeat", "3", "--resume", "kept"], "stored levels have one run each"),
+    ] {
+        let errors = folder.refused(&[&["run", "bar.yaml"], arguments].concat());
+        assert!(errors.contains(reason), "no `{reason}` in {errors}");
+    }
 }

@@ -71,15 +71,6 @@ fn one_ranking_by_seconds_has_methods_and_solvers(folder: Folder) {
 }
 
 #[rstest]
-#[case::a_second_solver_without_a_name("--solver|a=sh one.sh|--solver|sh two.sh")]
-#[case::a_name_of_a_method("--with-methods|--solver|fem-linear-lumped=sh one.sh")]
-#[case::methods_of_no_solver("--with-methods")]
-fn cost_refuses_what_run_refuses(folder: Folder, #[case] options: &str) {
-    let options: Vec<&str> = options.split('|').collect();
-    assert_eq!(folder.call(&[&["cost", "bar.yaml"], &options[..]].concat()).code, BAD_INPUT);
-}
-
-#[rstest]
 fn each_solver_has_its_own_gate(folder: Folder) {
     let gate = ["run", "bar.yaml", "--gate", "--brief", "--solver"];
     folder.write("low.sh", solver_of("h"));
@@ -127,4 +118,5 @@ fn equal_names_are_refused(folder: Folder, #[case] options: &str, #[case] error:
     let options: Vec<&str> = options.split('|').collect();
     let errors = folder.refused(&[&["run", "bar.yaml"], &options[..]].concat());
     assert_eq!(errors.lines().next(), Some(error), "{errors}");
+    assert_eq!(folder.call(&[&["cost", "bar.yaml"], &options[..]].concat()).code, BAD_INPUT);
 }

@@ -1,8 +1,9 @@
-//! References on a fine grid, and errors that have no order.
+//! References on a fine grid, errors without order, and volumetric locking.
 
 use crate::cli::BAR;
 use crate::common::{cases, edited, errors};
 use mpm_verify::verify::Convergence;
+use rstest::rstest;
 
 /// Creates a vibrating bar that is compared with its formula and with a run on 192 cells.
 fn bar(dt: &str) -> String {
@@ -90,4 +91,37 @@ fn rounding_errors_need_no_expectation() {
         assert!(case.verdict == "at rounding" && !case.fails(), "{}: {}", case.case, case.reason);
         assert!(case.reason.contains("count as rounding: 4 of 4 levels"), "{}", case.reason);
     }
+}
+
+const SHEARS: &str =
+    include_str!("../../../verification/equilibrium/two-shears-nearly-incompressible.yaml");
+
+/// Returns the errors (m) of [`SHEARS`] on the levels `cells` with this Poisson's ratio.
+fn errors_with(nu: &str, method: &str, cells: &str) -> Vec<f64> {
+    let (suite, _) = SHEARS.split_once("methods:").expect("a list of methods");
+    let (suite, _) = suite.split_once("any_method:").unwrap_or((suite, ""));
+    assert!(suite.contains("nu: 0.4999"));
+    let text = suite.replace("nu: 0.4999", &format!("nu: {nu}"));
+    let levels = "cells: [8, 10, 12, 16], full: [24, 32]";
+    assert!(text.contains(levels));
+    let text = text.replace(levels, &format!("cells: [{cells}]"));
+    let text = format!("{text}methods:\n  - mpm: {{{method}, start: half_step_back}}\n");
+    errors(&cases(&text)[0])
+}
+
+#[rstest]
+#[case::linear("basis: linear")]
+#[case::domains("basis: cpdi")]
+fn averaged_volume_ratios_prevent_locking(#[case] basis: &str) {
+    let method = format!("{basis}, transfer: flip, scheme: musl");
+    let compressible = errors_with("0.3", &method, "8, 16");
+    let averaged = errors_with("0.4999", &format!("{method}, volume: averaged"), "8, 16");
+    assert_eq!((compressible.len(), averaged.len()), (2, 2));
+    for (averaged, compressible) in averaged.iter().zip(&compressible) {
+        let ratio = averaged / compressible;
+        assert!(ratio <= 1.2, "{basis}: {averaged:.3e} m is {ratio:.3} times {compressible:.3e} m");
+    }
+    let plain = errors_with("0.4999", &method, "16");
+    let ratio = plain[0] / compressible[1];
+    assert!(ratio > 1.2, "{basis}: without the average {ratio:.3} times");
 }

@@ -6,7 +6,6 @@ mod error_scale;
 mod fine_grid;
 mod foundation;
 mod keys;
-mod locking;
 mod polygons;
 mod preflight;
 mod single_precision;

@@ -89,8 +89,8 @@ fn upper_end(steps: u64, double: &End, d: usize) -> f64 {
     (0..d).map(|axis| on_axis(axis) * on_axis(axis)).sum::<f64>().sqrt()
 }
 
-/// Compares the errors on the finest level of a suite without cell changes, and prints them as a row
-/// of the table. Returns whether the measured error lies within the predicted range.
+/// Compares the errors on the finest level of a suite without cell changes, and prints them as a
+/// row of the table. Returns whether the measured error lies within the predicted range.
 fn is_within(suite: &Suite) -> Option<bool> {
     let plan = suite.convergence()?;
     if plan.exact.as_ref().is_none_or(|exact| exact.at_rest) || plan.scene.bodies.len() > 1 {
