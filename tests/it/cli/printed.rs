@@ -26,14 +26,9 @@ fn a_run_of_many_suites_prints_a_line_for_each_and_the_failures() {
     assert_eq!(results, 2, "two cases of one suite\n{}", found.out);
     let parts = ["  bar-1          2.01..2.02  2 pass\n", "ambitious-bar: Short bar\n", "  FAIL "];
     assert_contains(&found.out, &parts);
-    assert!(
-        found.out.ends_with(
-            "\n6 suites, 12 cases: 10 pass, 2 FAIL\nnext: mpm-verify diagnose \
-             verification/proud/ambitious-bar.yaml --case mpm-linear-flip-musl\n"
-        ),
-        "{}",
-        found.out
-    );
+    let end = "\n6 suites, 12 cases: 10 pass, 2 FAIL\nnext: mpm-verify diagnose \
+               verification/proud/ambitious-bar.yaml --case mpm-linear-flip-musl\n";
+    assert!(found.out.ends_with(end), "{}", found.out);
     let written = folder.call(&["--out", "results"]).out;
     assert_contains(&written, &["\nwrote results\n6 suites, "]);
     let matrix = folder.call(&["run", "--overview"]).out;

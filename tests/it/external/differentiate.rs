@@ -1,11 +1,10 @@
 //! Answers to `differentiate` that violate the protocol, as shell scripts. Also invalid gradient
 //! suites.
 
+use super::gradient::SUITE;
 use crate::cli::{BAD_INPUT, FAILED, Folder, SOUND};
 use crate::common::folder::flat;
 use rstest::rstest;
-
-const SUITE: &str = include_str!("../../../verification/gradients/gradient-bar.yaml");
 
 const HELLO: &str = r#"{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["corotated"],"conditions":["free","fixed"],"gradients":["young","density","initial_velocity"]}}"#;
 
@@ -129,10 +128,8 @@ fn a_suite_without_an_exact_solution_is_refused_with_a_place() {
     let (before, truth) = SUITE.split_once("exact:\n").expect("the suite has an exact solution");
     let (_, after) = truth.split_once("\ngradient:").expect("the functional follows");
     let said = refusal(&format!("{before}gradient:{after}"));
-    assert!(
-        said.contains("the exact solution of a gradient study must be a displacement"),
-        "{said}"
-    );
+    let words = "the exact solution of a gradient study must be a displacement";
+    assert!(said.contains(words), "{said}");
 }
 
 #[test]

@@ -142,12 +142,7 @@ fn failed_level_runs_again() {
     assert!(first.out.contains("exit status 3"), "{}{}", first.out, first.errors);
     folder.write("well", String::new());
     let again = folder.call(&KEPT);
-    assert!(
-        again.out.contains("converging       2.00  [2.00, 2.00]"),
-        "{}{}",
-        again.out,
-        again.errors
-    );
+    assert_contains(&again.out, &["converging       2.00  [2.00, 2.00]"]);
 }
 
 #[test]

@@ -59,10 +59,8 @@ fn one_ranking_by_seconds_has_methods_and_solvers(folder: Folder) {
     let all = ["fem-linear-lumped", "first", "mpm-linear-flip-musl", "second"];
     let mut ranked = names(&suite["cost"][0]["methods"]);
     ranked.sort();
-    assert_eq!(
-        (suite["cost"][0]["work"].as_str(), ranked),
-        (Some("seconds"), all.map(str::to_owned).to_vec())
-    );
+    assert_eq!(ranked, all);
+    assert_eq!(suite["cost"][0]["work"], "seconds");
     for case in suite["cases"].as_array().unwrap() {
         for level in case["levels"].as_array().unwrap() {
             assert!(level["seconds"]["median"].as_f64() > Some(0.0), "{case}");

@@ -2,14 +2,15 @@
 //! external solvers.
 
 use crate::common::folder::{assert_contains, flat};
-use crate::common::read_suite;
 use crate::common::solver::solver;
+use crate::common::{edited, read_suite};
 use mpm_verify::report;
 use mpm_verify::study::{self, diagnose, preflight, under};
 use mpm_verify::suite::LevelPlan;
 use mpm_verify::suite::yaml::Severity;
 use mpm_verify::verify::{Diagnosis, KnownCauseKind};
 use rstest::rstest;
+use std::sync::LazyLock;
 
 /// Budget of predicted time (s) for the runs of a case.
 const BUDGET: f64 = 60.0;
@@ -17,24 +18,18 @@ const BUDGET: f64 = 60.0;
 /// Budget (s) that is too small for any changed run.
 const NO_RUNS: f64 = 1e-9;
 
-const BAR: &str = r#"suite: bar
-title: Bar
-source: a textbook
-parameters: {a: 1e-4, c: 10, omega: "pi/2*c"}
-scene:
-  dimension: 1
-  body: {box: {from: [0], to: [1]}}
-  material: {linear_elastic: {young: "c^2", poisson: 0, density: 1}}
-  boundary: {left: fixed}
-  initial_velocity: ["a*omega*sin(pi*X/2)"]
-exact:
-  equation: small_strain
-  displacement: ["a*sin(pi*X/2)*sin(omega*t)"]
-run: {until: 0.4, dt: "0.2*h/c"}
-refine: {cells: [8, 12, 16, 24, 32], ppc: 2}
-methods:
-  - mpm: {basis: linear, transfer: flip, scheme: musl}
-"#;
+/// The bar of [`preflight`](super::preflight) with larger displacements, for a whole period.
+static BAR: LazyLock<String> = LazyLock::new(|| {
+    let edits = [
+        ("a: 1e-8", "a: 1e-4"),
+        (", end: 0.05", ""),
+        ("  grid: {from: [0], to: [1.5]}\n", ""),
+        ("until: end", "until: 0.4"),
+        ("[6, 12, 18, 24]", "[8, 12, 16, 24, 32]"),
+    ];
+    let (before, _) = super::preflight::BAR.split_once("judge:").expect("a quantity");
+    edited(before, &edits)
+});
 
 /// A bar with a manufactured displacement; `GRID`, `FACES`, `U`, `UNTIL` and `METHOD` are replaced.
 const MANUFACTURED: &str = r#"suite: bar

@@ -94,12 +94,8 @@ fn the_stable_step_knows_the_stiffness_of_a_load() {
         for level in levels(case) {
             let cells = 4.0 / (level.h * level.h);
             let [least, most] = [cells, 0.0].map(|l| (2.0 / (l + 4e4_f64)).sqrt());
-            assert!(
-                level.dt > 0.95 * least && level.dt < 1.02 * most,
-                "{}: {}",
-                case.case,
-                level.dt
-            );
+            let is_near = (0.95 * least..1.02 * most).contains(&level.dt);
+            assert!(is_near, "{}: {}", case.case, level.dt);
             let error = level.run.errors.at_end.rms * 200.0;
             assert!(error < 3e-6, "{}: it stays bounded: {error}", case.case);
         }

@@ -9,7 +9,7 @@ use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
 use rstest::rstest;
 
 /// A suite without findings.
-const BAR: &str = r#"suite: bar
+pub(super) const BAR: &str = r#"suite: bar
 title: Bar
 source: a textbook
 parameters: {a: 1e-8, c: 10, omega: "pi/2*c", end: 0.05}

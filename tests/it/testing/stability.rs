@@ -131,10 +131,8 @@ fn solver_without_stress_or_totals_is_not_applicable() {
     assert_eq!(outcome.result().name(), "not applicable");
     assert_eq!(outcome.lacks, ["columns: stress"]);
     let outcome = judged(MOVING_BAR, &solver("silent", |problem| OwnSolver.subject(problem)));
-    assert_eq!(
-        (outcome.result().name(), outcome.verdict.as_str()),
-        ("not applicable", "not applicable")
-    );
+    let result = (outcome.result().name(), outcome.verdict.as_str());
+    assert_eq!(result, ("not applicable", "not applicable"));
     assert!(outcome.reason.contains("sends no totals"), "{}", outcome.reason);
 }
 
