@@ -14,16 +14,9 @@ const INTERRUPTED: i32 = 130;
 fn interrupted_run_prints_how_to_resume() {
     // The solver does not end its first step. Its file shows that the run has begun.
     let script = script("touch running\ncat > discarded");
-    for (more, words) in [
-        (
-            &[][..],
-            "interrupted, and no results are stored: with a folder for results, `mpm-verify run",
-        ),
-        (
-            &["--resume", "kept"],
-            "run bar.yaml --solver 'sh solver.sh' --resume kept` resumes the run",
-        ),
-    ] {
+    let resume = "run bar.yaml --solver 'sh solver.sh' --resume kept` resumes the run";
+    let advice = "no results are stored: with a folder for results, `mpm-verify run";
+    for (more, words) in [(&[][..], advice), (&["--resume", "kept"], resume)] {
         let folder = Folder::with("bar.yaml", BAR);
         let running = folder.write("solver.sh", &script).with_file_name("running");
         let arguments = ["run", "bar.yaml", "--solver", "sh solver.sh"];

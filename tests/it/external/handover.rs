@@ -1,10 +1,11 @@
 //! Problems of bodies that start deformed and rotated: initial and exact states, files, and the
 //! built-in solver as an external solver.
 
+use crate::common::solver::{NewSubject, Solver, solver};
 use crate::common::{built_in_source, valid_suite, vtk};
 use mpm_verify::external::{
     BodyForceField, FieldName, FieldPlaces, HandedNumber, LevelProblem, PlacedBodyForce,
-    ProblemFace, ProblemFormat, SolverFactory,
+    ProblemFace, ProblemFormat,
 };
 use mpm_verify::mpm::input::{
     BodyInput, EffectInput, FaceInput, ForceAt, GridInput, InitialState, MethodInput, MpmMethod,
@@ -15,7 +16,7 @@ use mpm_verify::mpm::{
     VolumeName,
 };
 use mpm_verify::study::{Runner, exact_state, level_problem, under};
-use mpm_verify::subject::{Precision, Start, Subject, SubjectError};
+use mpm_verify::subject::{Precision, Start};
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::RunResult;
 use rstest::rstest;
@@ -319,16 +320,9 @@ fn files_have_the_columns_of_the_particles(#[values(1, 2, 3)] d: usize) {
     assert_eq!(problem.times(), [0.018 * 2.0 / 6.0, 0.018 * 4.0 / 6.0, 0.018]);
 }
 
-/// The built-in MPM, created from problems.
-struct BuiltIn(BasisName);
-
-impl SolverFactory for BuiltIn {
-    fn name(&self) -> &'static str {
-        "built-in"
-    }
-
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        let basis = self.0;
+/// Creates the built-in MPM as an external solver.
+fn built_in(basis: BasisName) -> Solver<impl Fn(LevelProblem) -> NewSubject + Sync> {
+    solver("built-in", move |problem| {
         let dynamic = MpmMethod {
             basis,
             transfer: TransferName::Flip.into(),
@@ -344,7 +338,7 @@ impl SolverFactory for BuiltIn {
             None => MethodInput::Dynamic(dynamic),
         };
         subject(scene(&problem), method)
-    }
+    })
 }
 
 /// A body force that is requested from the problem.
@@ -451,10 +445,11 @@ fn scene(problem: &LevelProblem) -> SceneInput<'static> {
     }
 }
 
-fn runs(suite: &Suite, solver: &BuiltIn) -> [Vec<RunResult>; 2] {
-    let external = under(suite, solver, false).expect("a study of solvers");
+fn runs(suite: &Suite, basis: BasisName) -> [Vec<RunResult>; 2] {
+    let solver = built_in(basis);
+    let external = under(suite, &solver, false).expect("a study of solvers");
     let own = Runner::over(suite, Extent::Usual).case(0, &|| ());
-    let external = Runner::over(&external, Extent::Usual).judging(solver).case(0, &|| ());
+    let external = Runner::over(&external, Extent::Usual).judging(&solver).case(0, &|| ());
     [own, external].map(|found| {
         let study = found.convergence().expect("results");
         study.levels.iter().map(|level| level.run.clone()).collect()
@@ -469,7 +464,7 @@ fn built_in_solver_has_its_own_results_on_its_problems(#[values(1, 2, 3)] d: usi
     let (before, gravity) = text.split_once("  loads:\n").expect("loads");
     let (_, after) = gravity.split_once('\n').expect("a line of gravity");
     let suite = valid_suite(&format!("{before}{after}"));
-    let [own, external] = runs(&suite, &BuiltIn(BasisName::Linear));
+    let [own, external] = runs(&suite, BasisName::Linear);
     assert!(own.iter().all(|run| run.failure.is_none() && run.errors.at_end.rms > 0.0));
     assert_eq!(own.len(), 3);
     assert_eq!(external, own);
@@ -480,7 +475,7 @@ fn built_in_solver_has_its_own_results_on_its_problems(#[values(1, 2, 3)] d: usi
 fn built_in_solver_has_its_own_results_in_load_steps() {
     let text = built_in_source("load-steps-stressed-mohr-coulomb").text().to_owned();
     let suite = valid_suite(&text.replace("load_steps: [1, 4]", "load_steps: 4"));
-    let [own, external] = runs(&suite, &BuiltIn(BasisName::ContiguousGimp));
+    let [own, external] = runs(&suite, BasisName::ContiguousGimp);
     assert!(own.iter().all(|run| run.counters.min_j < 0.999 && run.steps == 4), "{own:?}");
     assert_eq!(external, own);
 }
