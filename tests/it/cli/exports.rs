@@ -1,8 +1,7 @@
 //! `run --format latex`, `--junit` and the files of `--out`, and the figures of `cost`: results for
 //! papers and continuous integration.
 
-use super::{BAR, FAILED, Folder, SOUND};
-use rstest::rstest;
+use super::{BAR, FAILED, Folder, SOUND, assert_refusals};
 
 /// XML forbids U+FFFE and U+FFFF, which JSON allows in the answer of a solver.
 #[test]
@@ -56,24 +55,17 @@ fn titles_and_labels_change_only_tables_and_figures() {
     assert!(report.contains("mpm-linear-flip-musl") && !report.contains("Bar of E"), "{report}");
 }
 
-#[rstest]
-#[case(
-    "--label|mpm-linear-flip-mus=a",
-    "error: --label mpm-linear-flip-mus: no case has this name; did you mean `mpm-linear-flip-musl`?"
-)]
-#[case(
-    "--label|fem-linear-lumped=a|--label|mpm-linear-flip-musl=a",
-    "error: --label a: another case has this label"
-)]
-#[case(
-    "--label|a",
-    "error: invalid value 'a' for '--label <CASE=TEXT>': expected the name of a case, `=` and a text"
-)]
-fn invalid_labels_are_refused(#[case] options: &str, #[case] error: &str) {
-    let folder = Folder::with("bar.yaml", BAR);
-    let options: Vec<&str> = options.split('|').collect();
-    let errors = folder.refused(&[&["run", "bar.yaml"], &options[..]].concat());
-    assert_eq!(errors.lines().next(), Some(error), "{errors}");
+#[test]
+fn invalid_labels_are_refused() {
+    let expected = "
+$ run bar.yaml --label mpm-linear-flip-mus=a
+error: --label mpm-linear-flip-mus: no case has this name; did you mean `mpm-linear-flip-musl`?
+$ run bar.yaml --label fem-linear-lumped=a --label mpm-linear-flip-musl=a
+error: --label a: another case has this label
+$ run bar.yaml --label a
+error: invalid value 'a' for '--label <CASE=TEXT>': expected the name of a case, `=` and a text
+";
+    assert_refusals(&Folder::with("bar.yaml", BAR), expected);
 }
 
 /// With twice the stable time step a method fails. Its levels must still be in the table.

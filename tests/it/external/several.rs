@@ -2,7 +2,7 @@
 
 use super::bar;
 use super::program::solver_of;
-use crate::cli::{BAD_INPUT, Folder, SOUND};
+use crate::cli::{Folder, SOUND, assert_refusals};
 use rstest::{fixture, rstest};
 use serde_json::Value;
 
@@ -88,33 +88,26 @@ fn each_solver_has_its_own_gate(folder: Folder) {
 }
 
 #[rstest]
-#[case::without_a_name(
-    "--solver|a=sh one.sh|--solver|sh two.sh",
-    "error: --solver sh two.sh: several solvers need a name each: `NAME=COMMAND`"
-)]
-#[case::the_same_name(
-    "--solver|a=sh one.sh|--solver|a=sh two.sh",
-    "error: --solver a: another solver has this name"
-)]
-#[case::the_name_of_a_case(
-    "--with-methods|--solver|fem-linear-lumped=sh one.sh",
-    "error: --solver fem-linear-lumped: a case of the suite `short-bar` has this name"
-)]
-#[case::parts(
-    "--with-methods|--shard|1/2|--solver|a=sh one.sh",
-    "error: --shard: shards are supported for one solver, or for the built-in methods"
-)]
-#[case::no_command(
-    "--solver|a=",
-    "error: invalid value 'a=' for '--solver <[NAME=]COMMAND>': expected a command after `=`"
-)]
-#[case::methods_without_a_solver(
-    "--with-methods",
-    "error: the following required arguments were not provided:"
-)]
-fn equal_names_are_refused(folder: Folder, #[case] options: &str, #[case] error: &str) {
-    let options: Vec<&str> = options.split('|').collect();
-    let errors = folder.refused(&[&["run", "bar.yaml"], &options[..]].concat());
-    assert_eq!(errors.lines().next(), Some(error), "{errors}");
-    assert_eq!(folder.call(&[&["cost", "bar.yaml"], &options[..]].concat()).code, BAD_INPUT);
+fn equal_names_are_refused(folder: Folder) {
+    let of_both = "
+$ run bar.yaml --solver 'a=sh one.sh' --solver 'sh two.sh'
+error: --solver sh two.sh: several solvers need a name each: `NAME=COMMAND`
+$ run bar.yaml --solver 'a=sh one.sh' --solver 'a=sh two.sh'
+error: --solver a: another solver has this name
+$ run bar.yaml --with-methods --solver 'fem-linear-lumped=sh one.sh'
+error: --solver fem-linear-lumped: a case of the suite `short-bar` has this name
+$ run bar.yaml --solver a=
+error: invalid value 'a=' for '--solver <[NAME=]COMMAND>': expected a command after `=`
+$ run bar.yaml --with-methods
+error: the following required arguments were not provided:
+  --solver <[NAME=]COMMAND>
+Usage: mpm-verify run --solver <[NAME=]COMMAND> --with-methods <SUITE>...
+";
+    assert_refusals(&folder, of_both);
+    assert_refusals(&folder, &of_both.replace(" run ", " cost "));
+    let of_run = "
+$ run bar.yaml --with-methods --shard 1/2 --solver 'a=sh one.sh'
+error: --shard: shards are supported for one solver, or for the built-in methods
+";
+    assert_refusals(&folder, of_run);
 }
