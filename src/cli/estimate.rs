@@ -213,16 +213,13 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
-    #[rstest]
-    #[case("1.25", 0.01)]
-    #[case("-1.25e-3", 1e-5)]
-    #[case("125", 1.0)]
-    #[case("1E2", 100.0)]
-    #[case("0.0012500", 1e-7)]
-    #[case("1.2345678901234567", 0.0)]
-    #[case("0.01234567890123456", 0.0)]
-    fn the_resolution_is_one_unit_of_the_last_digit(#[case] number: &str, #[case] unit: f64) {
-        assert!((resolution(number) - unit).abs() <= 1e-12 * unit, "{}", resolution(number));
+    #[test]
+    fn the_resolution_is_one_unit_of_the_last_digit() {
+        let numbers = ["1.25", "-1.25e-3", "125", "1E2", "0.0012500"];
+        for (number, unit) in numbers.into_iter().zip([0.01, 1e-5, 1.0, 100.0, 1e-7]) {
+            assert!((resolution(number) - unit).abs() <= 1e-12 * unit, "{number}");
+        }
+        assert_eq!(["1.2345678901234567", "0.01234567890123456"].map(resolution), [0.0; 2]);
     }
 
     #[rstest]

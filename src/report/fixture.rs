@@ -196,7 +196,7 @@ fn gradient() -> GradientStudy {
         single_precision: false,
         value: ValueCheck { reported: 26.5, computed: 26.0, tolerance: 1.0 },
         taylor: Taylor { value: 26.0, gradient: 22.0, rounding: 1e-9, perturbed: perturbed.into() },
-        levels: [(0, 22.0, 23.0), (1, 22.75, 23.0)].map(level).into(),
+        levels: [(0, 22.0, 23.0), (1, 23.25, 23.0)].map(level).into(),
         sweep: Some(Sweep { change: -3.0, share: 0.875, jumps: vec![0.25, -0.5] }),
         points: vec![point(1.5, 15.75, 18.0), point(2.5, 38.75, 28.0)],
         evidence: None,
@@ -259,7 +259,7 @@ pub(super) fn outcome() -> SuiteOutcome {
     ];
     cases[1].unmet = vec![Unmet::new(UnmetCode::RunFailed, "the run failed")];
     cases[0].profile = Some(Profile {
-        effects: vec!["gravity"],
+        effects: vec!["gravity", "traction"],
         particles: 20,
         nodes: 9,
         passes: vec!["P2G(mass)".to_owned(), "G2P(x)".to_owned()],

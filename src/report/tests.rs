@@ -117,7 +117,8 @@ fn json_has_each_value_at_its_key() {
         "cases/1/passed": false, "cases/1/unmet": ["the run failed"], "cases/1/codes": ["run-failed"],
         "cases/7/passed": false, "cases/7/lacks": ["fixed"], "cases/7/levels": [],
         "cases/0/profile": {
-            "effects": ["gravity"], "particles": 20, "nodes": 9, "passes": ["P2G(mass)", "G2P(x)"],
+            "effects": ["gravity", "traction"], "particles": 20, "nodes": 9,
+            "passes": ["P2G(mass)", "G2P(x)"],
             "visits": [{"part": "p2g mass", "particles": 40}, {"part": "g2p x", "particles": 3}],
             "columns": [{"name": "X", "of": "particle", "entries": 20, "bytes": 16},
                 {"name": "layer", "of": "particle", "entries": 4, "bytes": 2},
@@ -136,7 +137,7 @@ fn json_has_each_value_at_its_key() {
         "order": 2.0,
         "levels": [
             {"cells": 6, "dt": 0.006_001, "gradient": 22.0, "exact": 23.0, "error": 1.0, "order": null},
-            {"cells": 12, "dt": 0.006_101, "gradient": 22.75, "exact": 23.0, "error": 0.25,
+            {"cells": 12, "dt": 0.006_101, "gradient": 23.25, "exact": 23.0, "error": 0.25,
                 "order": 2.0}],
         "taylor": [
             {"level": 1, "remainder": 6.0, "order": null, "difference": 23.0},
@@ -171,6 +172,21 @@ fn text_has_each_value_in_its_row_and_column() {
             "      the solver lacks fixed",
         ]
     );
+}
+
+#[test]
+fn profile_distinguishes_full_and_partial_columns() {
+    let rows = profile(outcome().cases[0].profile.as_ref().expect("a profile"));
+    let expected = [
+        ("effects", "gravity, traction"),
+        ("a step", "P2G(mass), G2P(x)"),
+        ("particle visits", "p2g mass x 2, g2p x at 3 of 20 particles"),
+        ("particle memory", "16 B: X 16; layer 2 at 4 of 20"),
+        ("node memory", "8 B: m 8"),
+    ];
+    for (key, text) in expected {
+        assert!(rows.contains(&(key, text.to_owned())), "{key}: {rows:?}");
+    }
 }
 
 #[test]
@@ -334,6 +350,11 @@ fn page_has_the_values_of_each_case() {
         data-value="2252000">2252000</td><td class="prose">order 1.75</td></tr>"##;
     for row in [linear, ugimp].map(|row| row.replace("\n       ", "")) {
         assert!(page.contains(&row), "{row}");
+    }
+    let version = format!("mpm-verify {}", env!("CARGO_PKG_VERSION"));
+    let title = ": 50 % of a bar</h2>";
+    for words in [&version, title, "a book", "0000000000000abc", "reason: a proof"] {
+        assert!(page.contains(words), "{words}");
     }
     // One of one linear case has the order of theory, and none of the cases of uGIMP.
     let share = |percent, text| {
@@ -667,7 +688,7 @@ First.
     young                E = 7
   methods
     transfer             flip
-  effects       gravity
+  effects       gravity, traction
   levels (mpm-linear)
     5, 10, 20 cells along X
     h = 0.4 ... 0.1 m
@@ -769,7 +790,7 @@ First.
   derivative
   cells           dt     gradient        exact        error  order
       6    6.001e-03    2.200e+01    2.300e+01    1.000e+00      -
-     12    6.101e-03    2.275e+01    2.300e+01    2.500e-01   2.00
+     12    6.101e-03    2.325e+01    2.300e+01    2.500e-01   2.00
 
   k    remainder  order   difference
   1    6.000e+00      -    2.300e+01

@@ -12,10 +12,6 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
     let word = || words.to_owned();
     let row = |position| ForceRow { position, left: 1, right: 2, force: position, predicted: 0.5 };
     let case = |name: &str| CaseOutcome {
-        case: format!("{name}{words}"),
-        subject: "mpm",
-        settings: vec![(word(), word())],
-        profile: None,
         expected: Some(word()),
         because: word(),
         verdict: word(),
@@ -24,11 +20,10 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
             .iter()
             .map(|unmet| Unmet::new(UnmetCode::RunFailed, format!("{unmet}{words}")))
             .collect(),
-        lacks: Vec::new(),
-        exemption: None,
         study: Some(StudyResults::InternalForce(std::sync::Arc::new(InternalForce {
             rows: vec![row(0.0), row(1.0)],
         }))),
+        ..CaseOutcome::new(&format!("{name}{words}"), "mpm", vec![(word(), word())])
     };
     SuiteOutcome {
         suite: suite.to_owned(),
@@ -125,22 +120,6 @@ fn the_page_contains_the_text_report_and_all_figures() {
     }
 }
 
-/// The page shows version, title, source, fingerprint and reasons.
-#[test]
-fn the_page_names_the_run() {
-    let mut outcome = outcome("a", " b", &[]);
-    outcome.title = "a title".to_owned();
-    outcome.source = "a source".to_owned();
-    outcome.meaning = 0xabc;
-    outcome.cases[0].because = "a reason".to_owned();
-    let page = of(&[outcome], "");
-    let version = format!("mpm-verify {}", env!("CARGO_PKG_VERSION"));
-    for words in [&version, ": a title</h2>", "a source", "0000000000000abc", "reason: a reason"] {
-        assert!(page.contains(words), "{words}");
-    }
-    assert!(commit().is_none_or(|commit| page.contains(&format!(", commit {commit}. "))));
-}
-
 #[test]
 fn failures_and_refused_files_are_marked_above_the_suites() {
     let sound = of(&[outcome("a", "x", &[])], "");
@@ -163,6 +142,7 @@ fn the_page_loads_no_resources() {
         values(&page, "src").into_iter().chain(values(&page, "xlink:href")).collect();
     assert!(addresses.is_empty(), "{addresses:?}");
     assert_eq!(page.matches("default-src &#39;none&#39;").count(), 1);
+    assert!(commit().is_none_or(|commit| page.contains(&format!(", commit {commit}. "))));
     assert!(!STYLE.contains("url(") && !STYLE.contains("@import") && !SCRIPT.contains("fetch"));
 }
 

@@ -177,36 +177,3 @@ fn passes(lines: &mut Vec<String>, cases: &[&CaseOutcome]) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::subject::Column;
-
-    fn sample() -> Profile {
-        Profile {
-            effects: vec!["gravity", "traction"],
-            particles: 20,
-            nodes: 9,
-            columns: vec![
-                Column::of_particles("v", &[0.0; 20]).size,
-                Column::of_particles("layer", &[0_usize; 4]).size,
-                Column::of_nodes("mass", &[0.0; 9]).size,
-            ],
-            passes: vec!["P2G(mass)".to_owned(), "G2P(stress)".to_owned()],
-            visits: vec![("p2g mass", 20), ("g2p velocity", 40), ("p2g point force", 4)],
-        }
-    }
-
-    #[test]
-    fn full_and_partial_columns_are_distinguished() {
-        let rows = profile(&sample());
-        let text = |key| &rows.iter().find(|(name, _)| *name == key).expect("a row").1;
-        assert_eq!(text("effects"), "gravity, traction");
-        assert_eq!(text("a step"), "P2G(mass), G2P(stress)");
-        let visits = "p2g mass, g2p velocity x 2, p2g point force at 4 of 20 particles";
-        assert_eq!(text("particle visits"), visits);
-        assert_eq!(text("particle memory"), "8 B: v 8; layer 8 at 4 of 20");
-        assert_eq!(text("node memory"), "8 B: mass 8");
-    }
-}

@@ -125,7 +125,6 @@ pub(crate) fn contrast(a: &str, b: &str) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rstest::rstest;
 
     #[test]
     fn the_first_eight_series_differ_in_grey_print() {
@@ -144,14 +143,6 @@ mod tests {
         }
     }
 
-    #[rstest]
-    #[case("#000000", "#ffffff", 21.0)]
-    #[case("#777777", "#ffffff", 4.48)]
-    #[case("#ff0000", "#ffffff", 4.0)]
-    fn contrasts_are_those_of_the_standard(#[case] a: &str, #[case] b: &str, #[case] ratio: f64) {
-        assert!((contrast(a, b) - ratio).abs() < 0.005, "{}", contrast(a, b));
-    }
-
     /// Returns the light and the dark variant of a palette colour.
     fn schemes(light: &str) -> [&'static str; 2] {
         let mut all = PALETTE.iter().chain(&SERIES);
@@ -160,6 +151,7 @@ mod tests {
 
     #[test]
     fn texts_and_lines_have_contrast_in_both_schemes() {
+        assert!((contrast("#777777", "#ffffff") - 4.48).abs() < 0.005, "that of the standard");
         let lines = SERIES.iter().map(|colour| colour.0).chain([CONTEXT]);
         for (colour, least) in lines.map(|colour| (colour, 3.0)).chain([(INK, 7.0), (NEUTRAL, 7.0)])
         {

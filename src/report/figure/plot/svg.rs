@@ -144,13 +144,10 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
-    #[rstest]
-    #[case(-0.001, "0.00")]
-    #[case(-0.0, "0.00")]
-    #[case(1.005, "1.00")]
-    #[case(-12.346, "-12.35")]
-    fn coordinates(#[case] value: f64, #[case] text: &str) {
-        assert_eq!(number(value), text);
+    #[test]
+    fn coordinates() {
+        let texts = [-0.001, -0.0, 1.005, -12.346].map(number);
+        assert_eq!(texts, ["0.00", "0.00", "1.00", "-12.35"]);
     }
 
     #[rstest]
