@@ -89,16 +89,12 @@ impl Region {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rstest::rstest;
 
-    #[rstest]
-    #[case::low_corner([1.0, 2.0], true)]
-    #[case::high_corner([3.0, 4.0], true)]
-    #[case::high_face([2.0, 4.0], true)]
-    #[case::outside([2.0, 4.1], false)]
-    #[case::nan([f64::NAN, 3.0], false)]
-    fn faces_belong_to_it(#[case] label: [f64; 2], #[case] holds: bool) {
+    #[test]
+    fn faces_belong_to_it() {
         let region = Region { name: String::new(), from: vec![1.0, 2.0], to: vec![3.0, 4.0] };
-        assert_eq!(region.holds(&label), holds);
+        let inside = [[1.0, 2.0], [3.0, 4.0], [2.0, 4.0]].map(|label| region.holds(&label));
+        let outside = [[2.0, 4.1], [f64::NAN, 3.0]].map(|label| region.holds(&label));
+        assert_eq!((inside, outside), ([true; 3], [false; 2]));
     }
 }

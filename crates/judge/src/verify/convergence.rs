@@ -262,32 +262,28 @@ pub(in crate::verify) mod tests {
         }
     }
 
-    #[rstest]
-    #[case(Verdict::Converging, false)]
-    #[case(Verdict::TooGood, false)]
-    #[case(Verdict::PreAsymptotic, false)]
-    #[case(Verdict::TooFewLevels, false)]
-    #[case(Verdict::TooLow, true)]
-    #[case(Verdict::AtFloor, true)]
-    #[case(Verdict::Oscillatory, true)]
-    #[case(Verdict::Divergent, true)]
-    #[case(Verdict::Failed, true)]
-    fn verdicts_that_contradict_the_order_fail(#[case] verdict: Verdict, #[case] fails: bool) {
-        let mut study = study(&[1.0, 0.25]);
-        study.judgement.verdict = verdict;
-        assert_eq!(study.fails(), fails);
-        study.bounded = true;
-        assert!(!study.fails());
+    #[test]
+    fn verdicts_that_contradict_the_order_fail() {
+        use Verdict::{AtFloor, Divergent, Failed, Oscillatory, TooLow};
+        let fails = |verdict: Verdict, bounded: bool| {
+            let mut study = study(&[1.0, 0.25]);
+            (study.judgement.verdict, study.bounded) = (verdict, bounded);
+            study.fails()
+        };
+        for &verdict in Verdict::ALL {
+            let contradicts = [TooLow, AtFloor, Oscillatory, Divergent, Failed].contains(&verdict);
+            assert_eq!(fails(verdict, false), contradicts, "{verdict}");
+            assert!(!fails(verdict, true), "{verdict}");
+        }
     }
 
-    #[rstest]
-    #[case(Some(0.5), false)]
-    #[case(Some(0.499), true)]
-    #[case(None, false)]
-    fn a_step_at_the_limit_is_stable(#[case] stable: Option<f64>, #[case] is_too_long: bool) {
+    #[test]
+    fn a_step_at_the_limit_is_stable() {
         let mut level = study(&[1.0]).levels.remove(0);
-        level.stable_time_step = stable;
-        assert_eq!(level.is_too_long(), is_too_long);
+        for (stable, is_too_long) in [(Some(0.5), false), (Some(0.499), true), (None, false)] {
+            level.stable_time_step = stable;
+            assert_eq!(level.is_too_long(), is_too_long, "{stable:?}");
+        }
     }
 
     /// For order 2 the limit is 2.04, and the interval extends to the finest value, 2.

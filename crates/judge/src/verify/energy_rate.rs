@@ -56,10 +56,7 @@ mod tests {
     }
 
     #[rstest]
-    #[case::kept(0.0)]
-    #[case::lost(-0.01)]
-    #[case::made(3e-5)]
-    fn exponential_energy_has_its_exact_rate(#[case] rate: f64) {
+    fn exponential_energy_has_its_exact_rate(#[values(0.0, -0.01, 3e-5)] rate: f64) {
         // The first three of 203 instants do not fit into ten equal parts.
         let energy = |t: f64| if t < 3.0 { 1e6 } else { 7.0 * libm::exp(rate * t) };
         let found = energy_rate(&account(203, energy)).unwrap();

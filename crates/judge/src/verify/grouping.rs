@@ -17,15 +17,3 @@ pub fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
     let groups = grouped(values.into_iter().map(|value| (value, ())));
     groups.into_iter().map(|(value, _)| value).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn equal_keys_are_grouped_at_the_first() {
-        let pairs = [("b", 1), ("a", 2), ("b", 3)];
-        assert_eq!(grouped(pairs), [("b", vec![1, 3]), ("a", vec![2])]);
-        assert_eq!(distinct(pairs.map(|(key, _)| key)), ["b", "a"]);
-    }
-}

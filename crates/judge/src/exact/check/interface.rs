@@ -225,11 +225,4 @@ mod tests {
         });
         assert_outcome(meets_alone(&one, &other, Some(0.3)), violated);
     }
-
-    #[test]
-    fn the_bars_are_sound_each_for_itself() {
-        for bar in bars(BOUNCE) {
-            bar.check().unwrap();
-        }
-    }
 }

@@ -46,22 +46,3 @@ impl ConstitutiveLaw for CorotatedLaw {
         self.0.modulus()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::exact::tensor::product;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn rotation_agrees_with_the_polar_decomposition() {
-        let f: Tensor<f64> = [[1.2, -0.7, 0.3], [0.4, 0.8, 0.1], [-0.2, 0.5, 1.6]];
-        let turn = rotation(&f);
-        let back: Tensor<f64> = tensor(|i, j| turn[j][i]);
-        let (stretch, one) = (product(&back, &f), product(&back, &turn));
-        for (i, j) in [(0, 1), (0, 2), (1, 2), (0, 0), (1, 1), (2, 2)] {
-            assert_relative_eq!(stretch[i][j], stretch[j][i], epsilon = 1e-14);
-            assert_relative_eq!(one[i][j], unit::<f64>(i, j), epsilon = 1e-14);
-        }
-    }
-}

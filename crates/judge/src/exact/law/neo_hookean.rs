@@ -68,24 +68,3 @@ impl ConstitutiveLaw for NeoHookeanLaw {
         Some(Number::exp(strain) - T::from(1.0))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::exact::law::Equation;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn cauchy_stress_has_its_closed_forms() {
-        let law = NeoHookeanLaw::new(100.0, 0.3);
-        let (solid, Lame { lambda, mu }) = (Equation::from(law), law.0);
-        let gamma = 0.4;
-        let shear = solid.cauchy(&[[0.0, gamma, 0.0], [0.0; 3], [0.0; 3]]);
-        assert_relative_eq!(shear[0][1], mu * gamma, max_relative = 1e-14);
-        assert_relative_eq!(shear[1][0], mu * gamma, max_relative = 1e-14);
-        assert_relative_eq!(shear[0][0], mu * gamma * gamma, max_relative = 1e-13);
-        assert_relative_eq!(shear[1][1], 0.0, epsilon = 1e-13);
-        let lateral = solid.cauchy(&[[0.2, 0.0, 0.0], [0.0; 3], [0.0; 3]])[1][1];
-        assert_relative_eq!(lateral, lambda * libm::log(1.2) / 1.2, max_relative = 1e-14);
-    }
-}

@@ -46,17 +46,3 @@ impl ConstitutiveLaw for PolytropicLaw {
         Number::pow(density, T::from(self.exponent))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-
-    /// For 3 kg/m3 and an expansion by 1.5 along one axis, p = 2 (3/1.5)^3 = 16.
-    #[test]
-    fn pressure_is_a_power_of_the_current_density() {
-        let law = PolytropicLaw::new(2.0, 3.0);
-        let [[piola]] = law.piola(&[[0.5]]);
-        assert_relative_eq!(piola * law.density_factor(3.0), -16.0, max_relative = 1e-15);
-    }
-}

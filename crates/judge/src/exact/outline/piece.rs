@@ -137,7 +137,11 @@ mod tests {
     fn halves_make_a_whole() {
         let half = |x: f64| Piece::whole([x, 0.5], [1.0, 0.5]);
         let (joined, whole) = (half(1.0).with(&half(3.0)), Piece::whole([2.0, 0.5], [2.0, 0.5]));
-        assert_eq!((joined.volume, joined.place), (whole.volume, whole.place));
+        assert_eq!((joined.volume, joined.place), (4.0, [2.0, 0.5]));
+        assert_eq!(
+            (whole.volume, whole.place, whole.joints),
+            (4.0, [2.0, 0.5], [1.0, 1.0, 4.0, 4.0])
+        );
         for (a, b) in joined.spread.iter().zip(whole.spread) {
             assert!((a - b).abs() < 1e-15, "{joined:?}");
         }

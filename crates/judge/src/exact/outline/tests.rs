@@ -107,15 +107,6 @@ fn a_negligible_piece_is_omitted() {
     is_exact(&corners, 1);
 }
 
-#[test]
-fn a_whole_share_is_a_rectangle() {
-    let Piece { volume, place, joints, .. } = Piece::whole([3.0, -1.0], [0.2, 0.3]);
-    assert_relative_eq!(volume, 0.24, max_relative = 1e-15);
-    assert_eq!((place, joints), ([3.0, -1.0], [0.6, 0.6, 0.4, 0.4]));
-    let domain = Piece::whole(place, [0.2, 0.3]).domain();
-    assert_relative_eq!(domain[..], [0.2, 0.0, 0.0, 0.3][..], epsilon = 1e-15);
-}
-
 /// Generates star-shaped polygons: corners at random distances from a centre, at increasing angles.
 fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
     prop::collection::vec((0.05..1.0_f64, 0.1..1.0_f64), 4..12).prop_map(|corners| {

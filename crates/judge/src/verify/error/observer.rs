@@ -115,11 +115,7 @@ mod tests {
     }
 
     #[rstest]
-    #[case(0.5)]
-    #[case(0.0)]
-    #[case(0.31)]
-    #[case(1.0)]
-    fn a_cubic_is_interpolated_exactly(#[case] x: f64) {
+    fn a_cubic_is_interpolated_exactly(#[values(0.5, 0.0, 0.31, 1.0)] x: f64) {
         let samples = cubic(&[0.9, 0.1, 0.3, 0.5, 0.7, 0.2]);
         let u = displacement_at(&samples, &[x]).unwrap();
         assert_relative_eq!(u[0], 1.0 - x + 3.0 * x * x * x, max_relative = 1e-12);

@@ -44,23 +44,14 @@ fn trimmed(number: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rstest::rstest;
 
-    #[rstest]
-    #[case(0.0, "0")]
-    #[case(-0.0, "0")]
-    #[case(5.0, "5")]
-    #[case(25.0 / 60.0, "0.4167")]
-    #[case(9.999_96, "10")]
-    #[case(1234.4, "1234")]
-    #[case(100.0, "100")]
-    #[case(12_345.0, "1.234e4")]
-    #[case(-0.001_234_5, "-0.001234")]
-    #[case(3.2e-9, "3.2e-9")]
-    #[case(f64::MIN_POSITIVE / 2.0, "1.113e-308")]
-    #[case(f64::NAN, "NaN")]
-    #[case(f64::INFINITY, "inf")]
-    fn four_significant_digits(#[case] x: f64, #[case] text: &str) {
-        assert_eq!(format_number(x), text);
+    #[test]
+    fn four_significant_digits() {
+        let numbers = [0.0, -0.0, 5.0, 25.0 / 60.0, 9.999_96, 1234.4, 100.0];
+        assert_eq!(numbers.map(format_number), ["0", "0", "5", "0.4167", "10", "1234", "100"]);
+        let numbers = [12_345.0, -0.001_234_5, 3.2e-9, f64::MIN_POSITIVE / 2.0];
+        let texts = ["1.234e4", "-0.001234", "3.2e-9", "1.113e-308"];
+        assert_eq!(numbers.map(format_number), texts);
+        assert_eq!([f64::NAN, f64::INFINITY].map(format_number), ["NaN", "inf"]);
     }
 }

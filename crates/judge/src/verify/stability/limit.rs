@@ -71,9 +71,7 @@ mod tests {
     }
 
     #[rstest]
-    #[case(0.37)]
-    #[case(9.99)]
-    fn the_end_of_stability_is_found(#[case] end: f64) {
+    fn the_end_of_stability_is_found(#[values(0.37, 9.99)] end: f64) {
         let found = find(|x| x <= end).value().unwrap();
         assert!((found / end - 1.0).abs() <= 1e-4, "{found}");
     }
