@@ -237,19 +237,15 @@ fn taken_by_two(friction: Option<f64>) -> Profile {
 }
 
 #[test]
-fn page_lists_columns_and_suites_of_contact() {
+fn page_lists_columns_and_suites_of_contact_and_of_each_wall() {
     let row = row_of("contact", &taken_by_two(None), &taken_by_two(Some(0.3)));
     let has_contact = |suite: &str, _: &str| {
         crate::common::suite(suite).convergence().is_some_and(|plan| plan.scene.contact.is_some())
     };
     are_on_the_page(&[("contact", row)], has_contact);
-}
-
-#[test]
-fn page_lists_columns_and_suites_of_each_wall() {
     let rows = WALLS.map(|name| {
         let key = format!("{name} wall");
-        (name, row(&key, |_| (), |setup| setup.boundary = vec![wall(name, &setup.grid)]))
+        (name, self::row(&key, |_| (), |setup| setup.boundary = vec![wall(name, &setup.grid)]))
     });
     are_on_the_page(&rows, has_wall);
 }

@@ -190,26 +190,3 @@ fn every_basis_obeys_its_laws(#[values(false, true)] periodic: bool) {
     }
     obey::<exercise::QuadraticBernstein>(periodic);
 }
-
-#[rstest]
-#[case("linear", 0.25, &[0.75, 0.25])]
-#[case("quadratic_bspline", 0.0, &[1.0, 0.0, 0.0])]
-#[case("quadratic_bspline", 3.5, &[0.125, 0.75, 0.125])]
-#[case("cubic_bspline", 4.0, &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 0.0])]
-fn values_agree_with_hand_calculations(
-    #[case] name: &str,
-    #[case] at: f64,
-    #[case] expected: &[f64],
-) {
-    let name = *BasisName::ALL.iter().find(|basis| basis.name() == name).unwrap();
-    let cells = 8;
-    with_basis!(name, B => {
-        let counts = [B::count(cells, false)];
-        let grid = Grid::<1>::new(Vector::zeros(), 1.0, [cells], [false], counts);
-        let nodes = node_weights::<B, 1>(&grid, &particle(&grid, Vector::<1>::new(at)));
-        assert_eq!(nodes.len(), expected.len());
-        for (node, expected) in nodes.iter().zip(expected) {
-            assert_abs_diff_eq!(node.weight, *expected, epsilon = 1e-15);
-        }
-    });
-}

@@ -338,19 +338,3 @@ impl<const D: usize> Particles<D> {
         Self::fill(&Block { from: zeros(), to, density: 1.0 }, 1.0, 1)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn filled_body_has_its_exact_mass() {
-        let (from, to) = (Vector::<2>::new(0.0, 1.0), Vector::<2>::new(1.0, 3.0));
-        let block = Block { from, to, density: 3.0 };
-        let particles = Particles::fill(&block, 0.25, 2);
-        assert_eq!(particles.len(), 8 * 16);
-        assert_relative_eq!(particles.mass.iter().sum::<f64>(), 6.0, max_relative = 1e-14);
-        assert_relative_eq!(particles.x[0], Vector::<2>::new(0.0625, 1.0625));
-    }
-}

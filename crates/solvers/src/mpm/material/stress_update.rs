@@ -271,11 +271,9 @@ mod tests {
         }
     }
 
+    /// With these rates the particle is undefined, inverted or flat.
     #[rstest]
-    #[case::nan(f64::NAN)]
-    #[case::inverted(-3.0)]
-    #[case::flat(-2.0)]
-    fn one_invalid_particle_of_many_is_detected(#[case] rate: f64) {
+    fn one_invalid_particle_of_many_is_detected(#[values(f64::NAN, -3.0, -2.0)] rate: f64) {
         for p in [0, FEW + 5, 2 * FEW + 36] {
             let mut body = squares(2 * FEW + 37);
             body.grad_v[p] = Matrix::from_diagonal(&Vector::<2>::new(rate, 0.0));

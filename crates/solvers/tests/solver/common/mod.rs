@@ -70,10 +70,15 @@ pub(crate) fn free_body<const D: usize>(
     for p in 0..particles.len() {
         let (x, k) = (particles.x[p], p as f64);
         particles.v[p] = Vector::from_fn(|i, _| 1.2 + 0.1 * libm::sin(3.0 * x[(i + 1) % D]));
-        let stress = Matrix::<D>::from_fn(|i, j| libm::cos(k + (3 * i + j) as f64));
-        particles.sigma[p] = (stress + stress.transpose()) * 0.005;
+        particles.sigma[p] = scattered_stress(k);
     }
     body(method, scheme, particles, (H, 7))
+}
+
+/// Returns a symmetric stress (Pa) of irregular numbers.
+pub(crate) fn scattered_stress<const D: usize>(seed: f64) -> Matrix<D> {
+    let stress = Matrix::<D>::from_fn(|i, j| libm::cos(seed + (3 * i + j) as f64));
+    (stress + stress.transpose()) * 0.005
 }
 
 /// Creates a set-up of `particles` on a grid of `cells` cells of size `h` (m) along every axis,

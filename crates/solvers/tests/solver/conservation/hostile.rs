@@ -15,7 +15,7 @@ use scene::{Scene, body, every_method, materials};
 /// A change that makes the state of particle 1 extreme.
 type Spoil<const D: usize> = fn(&mut Particles<D>);
 
-/// Returns extreme states without NaN or infinite numbers.
+/// Returns extreme states. Only lengths of particle domains are NaN or infinite.
 fn extremes<const D: usize>() -> Vec<(&'static str, Spoil<D>)> {
     vec![
         ("on a node", |b| b.x[1] = Vector::from_element(1.0)),
@@ -48,6 +48,9 @@ fn extremes<const D: usize>() -> Vec<(&'static str, Spoil<D>)> {
         ("spinning", |b| b.grad_v[1].fill(1e200)),
         ("without size", |b| b.spacing.fill(0.0)),
         ("longer than the grid", |b| b.spacing.fill(1e300)),
+        ("of negative length", |b| b.spacing.fill(-1e30)),
+        ("of infinite length", |b| b.spacing.fill(f64::INFINITY)),
+        ("of undefined length", |b| b.spacing.fill(f64::NAN)),
         ("inside out", |b| {
             b.track_deformation();
             b.def_grad[1][(0, 0)] = -1.0;

@@ -9,7 +9,7 @@ mod transfer;
 mod walls;
 
 use crate::common::{methods, pairs};
-use mpm_solvers::mpm::{BasisName, TransferName};
+use mpm_solvers::mpm::{BasisName, Particles, TransferName, Vector};
 
 /// Taylor least squares is excluded. It conserves the momentum of every cell in P2G, but G2P would
 /// need other nodal masses to return the change of momentum. No other transfer has such a weak
@@ -29,4 +29,8 @@ fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     let all: Vec<_> =
         if dimension < 3 { methods().collect() } else { pairs().filter(in_space).collect() };
     all.into_iter()
+}
+
+fn momentum<const D: usize>(particles: &Particles<D>) -> Vector<D> {
+    particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m).sum()
 }

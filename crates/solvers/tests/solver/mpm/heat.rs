@@ -20,27 +20,6 @@ fn plate(basis: BasisName) -> (Box<dyn Kernel<2>>, Grid<2>, Particles<2>) {
     (kernel, grid, particles)
 }
 
-/// The temperature is `1 + 2 x - 3 y`. Each node, even at walls, must have the value of the field
-/// at its position.
-#[test]
-fn linear_temperature_is_reproduced_at_all_nodes() {
-    for &basis in BasisName::ALL {
-        let (kernel, grid, mut particles) = plate(basis);
-        let slope = Vector::<2>::new(2.0, -3.0);
-        let field = |x: &Vector<2>| 1.0 + slope.dot(x);
-        let mut heat = Heat::new(1.0, 1.0, &mut particles, |x| (field(x), slope));
-        heat.integrate_state(0.0, 0.0, &mut particles, kernel.as_ref(), &grid).unwrap();
-        let (temperature, slopes) = heat.fields();
-        for (node, value) in temperature.iter().enumerate() {
-            let place = basis.place(&grid, node);
-            assert_relative_eq!(*value, field(&place), max_relative = 1e-12, epsilon = 1e-12);
-        }
-        for found in slopes {
-            assert_relative_eq!(*found, slope, max_relative = 1e-12);
-        }
-    }
-}
-
 /// The heat of the particles must increase by the inflow: 7 W/m through an edge of 0.5 m, and 5
 /// W/kg in 1.5 kg.
 #[rstest]

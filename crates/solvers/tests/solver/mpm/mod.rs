@@ -1,16 +1,13 @@
 //! Parts of the solver, tested through their public interfaces.
 
 mod dispersion;
-mod gimp;
 mod heat;
 mod kernel;
 mod laws;
 mod null_space;
-mod passes;
 mod quasi_static;
 mod reaction;
 mod second_opinion;
 mod stable_time_step;
-mod tls;
 mod traction;
 mod volume_average;

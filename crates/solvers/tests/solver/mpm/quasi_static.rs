@@ -68,61 +68,6 @@ impl ColumnCase {
         };
         (0..self.load_steps).map(step).collect()
     }
-
-    /// Returns the compression modulus (Pa) below and above yield, and the logarithmic strain at
-    /// yield.
-    fn bilinear(self) -> [f64; 3] {
-        match self.material {
-            MaterialPlan::DruckerPrager { friction, dilation, strength, .. } => {
-                let (bulk, mu) = (1e4, 6e3);
-                let axial = 2.0 * mu / 3.0_f64.sqrt();
-                let modulus = bulk + 4.0 / 3.0 * mu;
-                let plastic = (bulk * friction - axial) * (bulk * dilation - axial)
-                    / (mu + bulk * friction * dilation);
-                [modulus, modulus - plastic, strength / (axial - friction * bulk)]
-            }
-            _ => [1e6, 1e6, 1.0],
-        }
-    }
-
-    /// Returns the height (m) of a material point in equilibrium. The axial Kirchhoff stress is
-    /// bilinear in the logarithmic strain, and equals minus the weight above times the stretch.
-    /// With Lambert's function W and `k(w) = w + w^2/2`, the integral of the stretch over the
-    /// weight is `M k(W)`.
-    fn exact_height(self, y: f64) -> f64 {
-        let ([modulus, plastic, strain], weight) = (self.bilinear(), self.density * self.gravity);
-        let at_yield = modulus * strain * libm::exp(strain);
-        let offset = strain * (1.0 - modulus / plastic);
-        let k = |w: f64| w + 0.5 * w * w;
-        let beyond = |q: f64| plastic * k(lambert(q * libm::exp(-offset) / plastic));
-        let integral = |q: f64| {
-            let elastic = modulus * k(lambert(q.min(at_yield) / modulus));
-            if q > at_yield { elastic + beyond(q) - beyond(at_yield) } else { elastic }
-        };
-        (integral(weight * self.height) - integral(weight * (self.height - y))) / weight
-    }
-
-    /// Returns the RMS of the displacement error (m) after the last load step, and the mean error
-    /// of the stress, relative to the weight of the column.
-    fn errors(self, basis: BasisName) -> [f64; 2] {
-        let mut solver = self.build::<1>(basis);
-        self.run(&mut solver);
-        let (Particles { x, x0, sigma, .. }, total) = (solver.particles(), self.cells as f64 * 2.0);
-        let (mut square, mut stress) = (0.0, 0.0);
-        for ((x, x0), sigma) in x.iter().zip(x0).zip(sigma) {
-            let error = x[0] - self.exact_height(x0[0]);
-            square += error * error / total;
-            // For any law, the Cauchy stress equals the weight above.
-            let weight = self.density * self.gravity;
-            stress += (sigma[(0, 0)] / weight + self.height - x0[0]).abs() / self.height / total;
-        }
-        [square.sqrt(), stress]
-    }
-}
-
-/// Computes Lambert's function: `w exp(w) = x`.
-fn lambert(x: f64) -> f64 {
-    (0..50).fold(x, |w, _| w - (w - x * libm::exp(-w)) / (1.0 + w))
 }
 
 /// Returns `ln(R_(j+1)/R_j) / ln(R_j/R_(j-1))` for the last three residuals above 1e-10; `None` if
@@ -134,15 +79,19 @@ fn newton_exponent(residuals: &[f64]) -> Option<f64> {
     falls.then(|| libm::log(c / b) / libm::log(b / a))
 }
 
-/// Returns the largest Newton exponent of three consecutive falling residuals above rounding; 0 if
-/// there are none.
-fn largest_exponent(residuals: &[f64]) -> f64 {
+/// Asserts that Newton's exponent is at least 1.8 in three consecutive falling residuals above
+/// rounding, and that one load step has at most this number of residuals.
+fn assert_converges_quadratically(setup: QuasiStaticSetup<2>, most: usize) {
+    let mut solver = QuasiStatic::new(setup).unwrap();
+    solver.step(1.0).unwrap();
+    let residuals = solver.residuals();
     let exponent = |three: &[f64]| {
         let [a, b, c] = *three else { return 0.0 };
         let is_falling = a > b && b > c && c > 1e-12;
         if is_falling { libm::log(c / b) / libm::log(b / a) } else { 0.0 }
     };
-    residuals.windows(3).map(exponent).fold(0.0, f64::max)
+    let largest = residuals.windows(3).map(exponent).fold(0.0, f64::max);
+    assert!(residuals.len() <= most && largest >= 1.8, "{largest}: {residuals:?}");
 }
 
 #[rstest]
@@ -166,72 +115,6 @@ fn newton_converges_quadratically(#[case] case: ColumnCase, #[case] is_smooth: b
     assert_relative_eq!(all[0][0], 1.0, max_relative = 1e-12);
     let last = all.len() as f64;
     assert_relative_eq!(all.last().unwrap()[0], 1.0 / last, max_relative = 0.05);
-}
-
-#[rstest]
-fn error_does_not_grow_with_the_number_of_load_steps(#[values(20, 40)] cells: usize) {
-    let error = |steps| ColumnCase::hencky(cells, steps).errors(BasisName::ContiguousGimp)[0];
-    let errors = [20, 40, 80].map(error);
-    assert!(errors[1] <= 1.05 * errors[0] && errors[2] <= 1.05 * errors[0], "{errors:?}");
-}
-
-/// Orders between neighbouring levels of 10, 20, 40 and 80 cells must agree with those of an
-/// independent program: of the displacement within 0.15, of the stress within 0.3. In one step a
-/// cell has its mean stress at both quarter points: order 2, and order 1 in the stress.
-#[rstest]
-#[case::hencky_at_once(
-    ColumnCase::hencky,
-    1,
-    &[BasisName::Linear, BasisName::ContiguousGimp],
-    [2.00, 2.00, 2.00],
-    [1.00, 1.00, 1.00]
-)]
-#[case::hencky(
-    ColumnCase::hencky,
-    20,
-    &[BasisName::ContiguousGimp],
-    [2.11, 2.46, 2.38],
-    [1.55, 1.89, 1.73]
-)]
-#[case::drucker_prager_at_once(
-    ColumnCase::drucker_prager,
-    1,
-    &[BasisName::Linear, BasisName::ContiguousGimp],
-    [1.99, 1.98, 1.91],
-    [1.00, 1.00, 1.00]
-)]
-#[case::drucker_prager(
-    ColumnCase::drucker_prager,
-    20,
-    &[BasisName::ContiguousGimp],
-    [2.35, 2.52, 2.10],
-    [1.09, 1.21, 1.54]
-)]
-fn orders_between_levels_are_those_of_theory(
-    #[case] case: fn(usize, u64) -> ColumnCase,
-    #[case] load_steps: u64,
-    #[case] bases: &[BasisName],
-    #[case] displacement: [f64; 3],
-    #[case] stress: [f64; 3],
-) {
-    for basis in bases {
-        let errors = [10, 20, 40, 80].map(|cells| case(cells, load_steps).errors(*basis));
-        for k in 0..3 {
-            let order = |of: usize| libm::log2(errors[k][of] / errors[k + 1][of]);
-            assert!((order(0) - displacement[k]).abs() <= 0.15, "{k}: {errors:?}");
-            assert!((order(1) - stress[k]).abs() <= 0.3, "{k}: {errors:?}");
-        }
-    }
-}
-
-/// Particles that are no longer at the quarter points of fixed cells integrate linear functions
-/// with an error.
-#[rstest]
-#[case::hencky(ColumnCase::hencky)]
-#[case::drucker_prager(ColumnCase::drucker_prager)]
-fn error_of_linear_functions_grows_in_many_load_steps(#[case] case: fn(usize, u64) -> ColumnCase) {
-    let errors = [10, 20, 40, 80].map(|cells| case(cells, 20).errors(BasisName::Linear));
-    assert!(errors.windows(2).all(|pair| pair[1][0] > pair[0][0]), "{errors:?}");
 }
 
 /// If load steps have half the length, there are twice as many.
@@ -261,38 +144,6 @@ fn column_is_the_same_in_any_dimension(#[values(1, 2)] load_steps: u64) {
         assert!((9.0..9.99).contains(&expected));
         assert_relative_eq!(height::<2>(case, basis), expected, max_relative = 1e-10);
         assert_relative_eq!(height::<3>(case, basis), expected, max_relative = 1e-10);
-    }
-}
-
-/// A ring between rollers has the uniaxial strain of a column. Its radial and hoop stresses are
-/// equal, so the radial forces of linear functions vanish, also where the soil yields.
-#[rstest]
-fn ring_between_rollers_is_a_column(#[values(1, 2)] load_steps: u64) {
-    let case = ColumnCase::drucker_prager(4, load_steps);
-    let (h, kernel) = (case.height / case.cells as f64, kernel::<2>(BasisName::Linear));
-    let from = Vector::<2>::new(2.0 * h, 0.0);
-    let grid = kernel.grid(from, h, [2, case.cells + 1], [false; 2]);
-    let to = Vector::<2>::new(4.0 * h, case.height);
-    let mut particles = Particles::fill(&Block { from, to, density: case.density }, h, 2);
-    particles.revolve();
-    let weight = move |_: f64| Vector::<2>::new(0.0, -case.gravity);
-    let effects: Vec<Box<dyn Effect<2>>> = vec![Box::new(Gravity(Box::new(weight)))];
-    let boundary: Vec<Box<dyn Boundary<2>>> = vec![
-        Box::new(Roller::face(&grid, 0, Side::Low)),
-        Box::new(Roller::face(&grid, 0, Side::High)),
-        Box::new(Fixed::face(&grid, 1, Side::Low)),
-    ];
-    let material = case.material.in_plane::<2>(PlaneState::Axisymmetric).unwrap();
-    let setup =
-        QuasiStaticSetup { grid, particles, kernel, material, effects, boundary, load_steps };
-    let mut ring = QuasiStatic::new(setup).unwrap();
-    case.run(&mut ring);
-    let Particles { x, x0, sigma, stress_across, .. } = ring.particles();
-    let top = x.iter().map(|x| x[1]).fold(0.0, f64::max);
-    assert_relative_eq!(top, height::<1>(case, BasisName::Linear), max_relative = 1e-10);
-    for (p, across) in stress_across.iter().enumerate() {
-        assert_relative_eq!(x[p][0], x0[p][0], max_relative = 1e-10);
-        assert_relative_eq!(sigma[p][(0, 0)], *across, max_relative = 1e-8);
     }
 }
 
@@ -400,8 +251,14 @@ fn layer_under_initial_stress_shears_in_proportion_to_the_load() {
 #[test]
 fn corrections_that_invert_particles_are_shortened() {
     let case = ColumnCase { gravity: 750.0, ..ColumnCase::hencky(20, 1) };
-    let [displacement, stress] = case.errors(BasisName::Linear);
-    assert!(displacement < 0.05 && stress < 0.03, "{displacement}, {stress}");
+    let mut solver = case.build::<1>(BasisName::Linear);
+    case.run(&mut solver);
+    let Particles { x0, sigma, .. } = solver.particles();
+    for (x0, sigma) in x0.iter().zip(sigma) {
+        // The Cauchy stress is the weight above, up to that of half a cell.
+        let above = case.density * case.gravity * (case.height - x0[0]);
+        assert_relative_eq!(sigma[(0, 0)], -above, epsilon = 0.03 * 3e6);
+    }
 }
 
 /// Soil hangs from its wall, and the weight exceeds the tensile strength of the cone.
@@ -469,11 +326,7 @@ fn newton_converges_quadratically_in_two_dimensions(
 ) {
     let mut setup = case.setup::<2>(basis);
     setup.boundary.push(Box::new(Fixed::face(&setup.grid, 1, Side::Low)));
-    let mut solver = QuasiStatic::new(setup).unwrap();
-    solver.step(1.0).unwrap();
-    let residuals = solver.residuals();
-    let largest = largest_exponent(residuals);
-    assert!(residuals.len() <= 15 && largest >= 1.8, "{largest}: {residuals:?}");
+    assert_converges_quadratically(setup, 15);
 }
 
 /// Creates a ring of soil or rubber with radii from 1 m to 2 m on a fixed bottom, under its own
@@ -510,11 +363,7 @@ fn newton_converges_quadratically_in_a_body_of_revolution(
     #[values(BasisName::Linear, BasisName::QuadraticBSpline)] basis: BasisName,
     #[case] material: MaterialPlan,
 ) {
-    let mut solver = QuasiStatic::new(ring(material, basis, 4)).unwrap();
-    solver.step(1.0).unwrap();
-    let residuals = solver.residuals();
-    let largest = largest_exponent(residuals);
-    assert!(residuals.len() <= 10 && largest >= 1.8, "{largest}: {residuals:?}");
+    assert_converges_quadratically(ring(material, basis, 4), 10);
 }
 
 /// The hoop stretch F_33 of each particle must equal r/R after several load steps.
@@ -540,46 +389,6 @@ fn particle_on_the_axis_is_refused() {
     (setup.particles.x[3][0], setup.particles.x0[3][0]) = (0.0, 0.0);
     let failure = QuasiStatic::new(setup).unwrap().step(1.0).unwrap_err();
     assert_eq!(failure, Failure::NonFinite { quantity: "hoop strain", site: Site::Particle(3) });
-}
-
-/// A neo-Hookean square starts stretched by F0 = diag(2, 1/2), and is then sheared on its fixed
-/// bottom by tractions that hold F = (2, 1/4; 0, 1/2). The increment (1, 1/2; 0, 1) does not
-/// commute with F0.
-#[test]
-fn deformation_gradient_has_the_increment_on_its_left() {
-    let (h, kernel) = (0.5, kernel::<2>(BasisName::Linear));
-    let grid = kernel.grid(Vector::<2>::new(0.0, 0.0), h, [6, 2], [false; 2]);
-    let to = Vector::from_element(1.0);
-    let block = Block { from: Vector::zeros(), to, density: 1.0 };
-    // In the stretched state, a cell has two particles along the first axis and eight along the
-    // second axis.
-    let mut particles = Particles::fill(&block, 0.25, 2);
-    let labels = particles.x0.clone();
-    let before = Matrix::<2>::new(2.0, 0.0, 0.0, 0.5);
-    particles.deform(|p| (before * labels[p] - labels[p], before));
-    let after = Matrix::<2>::new(2.0, 0.25, 0.0, 0.5);
-    let (young, poisson) = (100.0, 0.3);
-    let mu = 0.5 * young / (1.0 + poisson);
-    // J = 1, so P = mu (F - F^-T).
-    let piola = (after - after.try_inverse().unwrap().transpose()) * mu;
-    let faces = [(0, Side::Low), (0, Side::High), (1, Side::High)];
-    let traction = |(axis, side): (usize, Side)| -> Box<dyn Effect<2>> {
-        let sign = if side == Side::High { 1.0 } else { -1.0 };
-        let force = Box::new(move |_: &Vector<2>, _| piola.column(axis) * sign);
-        Box::new(Traction::at(&particles, axis, side, Placement::Surface, force))
-    };
-    let effects = faces.into_iter().map(traction).collect();
-    let boundary: Vec<Box<dyn Boundary<2>>> = vec![Box::new(Fixed::face(&grid, 1, Side::Low))];
-    let material = MaterialPlan::NeoHookean { young, poisson }.build();
-    let setup =
-        QuasiStaticSetup { grid, particles, kernel, material, effects, boundary, load_steps: 1 };
-    let mut body = QuasiStatic::new(setup).unwrap();
-    body.step(1.0).unwrap();
-    for (f, (x, x0)) in body.particles().def_grad.iter().zip(body.particles().x.iter().zip(&labels))
-    {
-        assert_relative_eq!(*f, after, epsilon = 1e-9);
-        assert_relative_eq!(*x, after * x0, epsilon = 1e-9);
-    }
 }
 
 /// At strains of 4e-5 the equations are linear up to terms of this size, so the first correction
@@ -659,16 +468,6 @@ fn uniform_pull_is_exact_with_domains_that_follow(
             pulled_column::<3>(basis, strain, cells, steps),
         ];
         assert!(errors.iter().all(|error| *error <= 1e-10), "{errors:?}");
-    }
-}
-
-/// Domains of constant size leave gaps of the relative length `strain`, so the error is of first
-/// order in the strain and in h.
-#[test]
-fn error_of_a_uniform_pull_with_domains_of_constant_size_is_below_the_strain() {
-    for cells in [2, 4, 8] {
-        let error = pulled_column::<1>(BasisName::UniformGimp, 0.01, cells, 20);
-        assert!(error <= 0.01 / cells as f64, "{error:.1e}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Reactions of walls.
 
-use crate::common::{DT, H, body, in_dimension};
+use crate::common::{DT, H, body, in_dimension, scattered_stress};
 use approx::assert_relative_eq;
 use mpm_solvers::mpm::{
     BasisName, Block, Fixed, Matrix, Particles, Prescribed, Roller, SchemeName, Setup, Side,
@@ -15,10 +15,8 @@ const CELLS: usize = 3;
 fn full<const D: usize>(basis: BasisName, scheme: SchemeName) -> Setup<D> {
     let (from, to) = (Vector::zeros(), Vector::from_element(H * CELLS as f64));
     let mut particles = Particles::<D>::fill(&Block { from, to, density: 1.0 }, H, 2);
-    for p in 0..particles.len() {
-        let k = p as f64;
-        let stress = Matrix::<D>::from_fn(|i, j| libm::cos(k + (3 * i + j) as f64));
-        particles.sigma[p] = (stress + stress.transpose()) * 0.005;
+    for (p, sigma) in particles.sigma.iter_mut().enumerate() {
+        *sigma = scattered_stress(p as f64);
     }
     body((basis, TransferName::Flip), scheme, particles, (H, CELLS))
 }

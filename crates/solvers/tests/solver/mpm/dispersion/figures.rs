@@ -18,59 +18,6 @@ fn method(spline: Spline, (transfer, scheme): (WaveTransfer, SchemeName)) -> Wav
     WaveMethod { spline, ppc: 2, shift: 0.0, transfer, scheme }
 }
 
-fn symbols(spline: Spline, theta: f64, ppc: u32) -> WaveSymbols {
-    WaveSymbols::new(spline, theta, &WaveSymbols::shifted_positions(ppc, 0.0))
-}
-
-#[rstest]
-#[case::linear(Spline::Linear, [0.585_786_438, 0.890_165_043, 1.0])]
-#[case::quadratic(Spline::Quadratic, [0.521_446_609, 0.856_569_320, 0.991_706_194])]
-#[case::cubic(Spline::Cubic, [0.501_766_691, 0.813_227_565, 0.984_157_010])]
-fn symbols_of_eight_cells(#[case] spline: Spline, #[case] expected: [f64; 3]) {
-    let WaveSymbols { stiffness, mass, affine, .. } = symbols(spline, PI / 4.0, 2);
-    for (symbol, expected) in [stiffness, mass, affine].into_iter().zip(expected) {
-        assert_abs_diff_eq!(symbol, expected, epsilon = 5.01e-10);
-    }
-}
-
-/// For linear functions the symbols have closed forms. Stiffness and APIC do not depend on the
-/// positions of the particles.
-#[rstest]
-fn linear_symbols_have_closed_forms(
-    #[values(1, 2, 3, 4)] ppc: u32,
-    #[values(0.1, PI / 4.0, 2.0, PI)] theta: f64,
-    #[values(0.0, 0.07)] shift: f64,
-) {
-    let positions: Vec<f64> =
-        WaveSymbols::shifted_positions(ppc, 0.0).iter().map(|xi| xi + shift).collect();
-    let found = WaveSymbols::new(Spline::Linear, theta, &positions);
-    let lost = 1.0 - libm::cos(theta);
-    assert_abs_diff_eq!(found.stiffness, 2.0 * lost, epsilon = 1e-14);
-    assert_abs_diff_eq!(found.affine, 1.0, epsilon = 1e-14);
-    if shift == 0.0 {
-        let share = 1.0 / 3.0 + 1.0 / (6.0 * f64::from(ppc * ppc));
-        assert_abs_diff_eq!(found.mass, 1.0 - share * lost, epsilon = 1e-14);
-    }
-}
-
-/// With linear functions, a particle at a node has no inertia and no affine part.
-#[test]
-fn a_particle_on_a_node_has_no_affine_part() {
-    let found = WaveSymbols::new(Spline::Linear, 1.0, &[0.0]);
-    assert_eq!(found.affine, found.mass);
-    assert_abs_diff_eq!(found.mass, 1.0, epsilon = 1e-15);
-}
-
-/// One particle is at a corner between two quadratic functions, where both are 1/2.
-#[rstest]
-fn quadratic_symbols_at_knots_equal_linear_ones(#[values(0.3, PI / 4.0, 2.5)] theta: f64) {
-    let quadratic = WaveSymbols::new(Spline::Quadratic, theta, &[0.0]);
-    let linear = WaveSymbols::new(Spline::Linear, theta, &[0.5]);
-    assert_abs_diff_eq!(quadratic.stiffness, linear.stiffness, epsilon = 1e-14);
-    assert_abs_diff_eq!(quadratic.mass, linear.mass, epsilon = 1e-14);
-    assert_abs_diff_eq!(quadratic.affine, linear.affine, epsilon = 1e-14);
-}
-
 #[rstest]
 #[case::flip_musl(FLIP_MUSL, [[-0.077_351, 1.0], [-0.146_511, 1.0], [-0.184_441, 1.0],
     [-0.019_729, 1.0], [-0.038_499, 1.0], [-0.049_281, 1.0]])]
@@ -130,7 +77,9 @@ fn limits_of_a_wave_have_closed_forms(
     #[values(Spline::Linear, Spline::Quadratic, Spline::Cubic)] spline: Spline,
     #[values(0.5, 2.0)] theta: f64,
 ) {
-    let WaveSymbols { stiffness: kappa, mass: s, affine: a, .. } = symbols(spline, theta, 2);
+    let positions = WaveSymbols::shifted_positions(2, 0.0);
+    let WaveSymbols { stiffness: kappa, mass: s, affine: a, .. } =
+        WaveSymbols::new(spline, theta, &positions);
     for (named, square) in [
         (FLIP_MUSL, 4.0 / (kappa * s)),
         (FLIP_USL, 4.0 / (kappa * (2.0 - s))),

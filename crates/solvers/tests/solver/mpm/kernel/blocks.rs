@@ -1,12 +1,12 @@
 //! Properties of blocks of particles: passes must have the same bits for any number of threads, and
 //! the sums of one block up to rounding.
 
-use super::bits;
+use super::{bits, filled};
 use crate::common::in_dimension;
 use approx::assert_relative_eq;
 use mpm_solvers::mpm::{
-    Affine, BasisName, Block, Divergence, G2pRequest, Grid, Kernel, LoopSettings, Matrix,
-    P2gRequest, ParticleField, Particles, Vector, kernel, kernel_with,
+    Affine, BasisName, Divergence, G2pRequest, Grid, Kernel, LoopSettings, P2gRequest,
+    ParticleField, Particles, kernel, kernel_with,
 };
 use rayon::ThreadPoolBuilder;
 use rstest::rstest;
@@ -19,8 +19,8 @@ fn cutting<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
     kernel_with(basis, settings)
 }
 
-/// Creates a body in a grid that is long along its last axis, with numbers in all columns. A test
-/// in `crates/solvers/src/mpm/kernel/colouring.rs` checks that such a body is divided into blocks.
+/// Creates a body in a grid that is long along its last axis. A test in
+/// `crates/solvers/src/mpm/kernel/colouring.rs` checks that such a body is divided into blocks.
 fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Particles<D>) {
     let cells = std::array::from_fn(|axis| match (axis + 1 == D, D) {
         (true, 1) => 600,
@@ -28,19 +28,7 @@ fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Pa
         (false, 2) => 9,
         (false, _) => 3,
     });
-    let mut grid = kernel.grid(Vector::zeros(), H, cells, [periodic; D]);
-    let to = Vector::from_fn(|axis, _| H * cells[axis] as f64);
-    let mut particles = Particles::fill(&Block { from: Vector::zeros(), to, density: 2.0 }, H, 2);
-    let vector = |k: usize| Vector::<D>::from_fn(|i, _| libm::sin((7 * k + 3 * i + 1) as f64));
-    particles.track_domains();
-    for p in 0..particles.len() {
-        particles.x[p] += vector(p) * (0.2 * H);
-        particles.v[p] = vector(p + 1);
-        particles.sigma[p] = Matrix::from_fn(|i, j| vector(p + i)[j]);
-        particles.domain[p] *= 1.1;
-    }
-    grid.velocity.iter_mut().enumerate().for_each(|(i, v)| *v = vector(i + 2));
-    (grid, particles)
+    filled(kernel, (0.0, cells), periodic, |_| 1.1)
 }
 
 /// Returns mass, momentum and force of all nodes.

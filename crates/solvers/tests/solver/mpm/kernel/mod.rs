@@ -16,26 +16,38 @@ use rstest::rstest;
 
 const CELLS: usize = 4;
 
-/// Creates a grid full of particles, two to a cell and axis, with numbers in all columns. Some
-/// domains are longer than a cell.
+/// Creates a grid full of particles. Some domains are longer than a cell.
 fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Particles<D>) {
-    let (h, origin) = (0.25, Vector::from_element(-0.3));
-    let mut grid = kernel.grid(origin, h, [CELLS; D], [periodic; D]);
-    let to = origin + Vector::from_element(h * CELLS as f64);
+    let longer = |p: usize| if p.is_multiple_of(3) { 2.9 } else { 1.1 };
+    let (grid, mut particles) = filled(kernel, (-0.3, [CELLS; D]), periodic, longer);
+    particles.spacing *= 2.2;
+    if kernel.domain() == Domain::Fixed {
+        particles.domain.clear();
+    }
+    (grid, particles)
+}
+
+/// Fills a grid with particles, two to a cell and axis, with numbers in all columns. `longer`
+/// returns the factor of the size of a domain.
+fn filled<const D: usize>(
+    kernel: &dyn Kernel<D>,
+    (origin, cells): (f64, [usize; D]),
+    periodic: bool,
+    longer: impl Fn(usize) -> f64,
+) -> (Grid<D>, Particles<D>) {
+    let (h, origin) = (0.25, Vector::from_element(origin));
+    let mut grid = kernel.grid(origin, h, cells, [periodic; D]);
+    let to = origin + Vector::from_fn(|axis, _| h * cells[axis] as f64);
     let mut particles = Particles::fill(&Block { from: origin, to, density: 2.0 }, h, 2);
     let number = |k: usize, i: usize| libm::sin((7 * k + 3 * i + 1) as f64);
     let vector = |k: usize| Vector::<D>::from_fn(|i, _| number(k, i));
     let matrix = |k: usize| Matrix::<D>::from_fn(|i, j| number(k, i + 3 * j));
     particles.track_domains();
-    particles.spacing *= 2.2;
     for p in 0..particles.len() {
         particles.x[p] += vector(p) * (0.2 * h);
         particles.v[p] = vector(p + 1);
         particles.sigma[p] = matrix(p);
-        particles.domain[p] *= if p % 3 == 0 { 2.9 } else { 1.1 };
-    }
-    if kernel.domain() == Domain::Fixed {
-        particles.domain.clear();
+        particles.domain[p] *= longer(p);
     }
     grid.velocity.iter_mut().enumerate().for_each(|(i, v)| *v = vector(i + 2));
     grid.acceleration.iter_mut().enumerate().for_each(|(i, a)| *a = vector(i + 3));
