@@ -11,8 +11,8 @@ use mpm_verify::subject::{BodyFields, Failure, RunCounters, Samples, Subject, Su
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Case, Extent, Suite};
 use mpm_verify::testing::{
-    Change, Changed, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding, doctor,
-    page,
+    Change, Changed, DoctorReport, ExaminationReport, ExaminationResult, FindingWeight,
+    SolverFinding, doctor, page,
 };
 use mpm_verify::verify::CaseOutcome;
 use rayon::prelude::*;
@@ -116,7 +116,7 @@ fn irrelevant_changes_do_not_affect_a_shear_wave() {
 }
 
 /// The built-in solver, for problems of one number of dimensions.
-struct BuiltIn {
+pub(crate) struct BuiltIn {
     solver: ProblemSolver,
     dimension: usize,
 }
@@ -156,9 +156,29 @@ fn cases(methods: &str) -> Vec<Case> {
     suite.convergence().expect("a convergence study").cases.clone()
 }
 
-fn built_in(dimension: usize, method: &str) -> BuiltIn {
+pub(crate) fn built_in(dimension: usize, method: &str) -> BuiltIn {
     let [case] = &cases(&format!("{{mpm: {{{method}}}}}"))[..] else { panic!("{method}") };
     BuiltIn { solver: ProblemSolver { method: case.method }, dimension }
+}
+
+/// Examines a solver without defects.
+fn healthy(solver: &dyn SolverFactory) -> DoctorReport {
+    let report = doctor(solver, &|_| ());
+    assert_eq!(report.defects(), 0, "{}", page(&report));
+    report
+}
+
+fn result<'a>(report: &'a DoctorReport, name: &str) -> &'a ExaminationResult {
+    let mut examinations = report.examinations.iter();
+    &examinations.find(|made| made.examination == name).expect("an examination").result
+}
+
+/// Returns what a solver lacks for an examination.
+fn lacks<'a>(report: &'a DoctorReport, name: &str) -> &'a str {
+    match result(report, name) {
+        ExaminationResult::NotApplicable { lacks } => lacks,
+        _ => panic!("{}", page(report)),
+    }
 }
 
 #[rstest]
@@ -169,8 +189,7 @@ fn built_in(dimension: usize, method: &str) -> BuiltIn {
 #[ignore = "ci/nightly runs it"]
 #[case::three_dimensions(3, "basis: linear, transfer: flip, scheme: usl")]
 fn doctor_finds_no_defect_in_the_built_in_solver(#[case] dimension: usize, #[case] method: &str) {
-    let report = doctor(&built_in(dimension, method), &|_| ());
-    assert_eq!(report.defects(), 0, "{}", page(&report));
+    let report = healthy(&built_in(dimension, method));
     // `ProblemSolver` has no other loads and conditions; unit tests of the library examine these.
     let beyond = [
         "plane-stress",
@@ -231,41 +250,28 @@ impl Subject for Divided {
 /// Averaging in each of the shorter steps transfers almost four times the momentum of the stress.
 #[test]
 fn doctor_does_not_examine_a_stress_that_averaging_hides() {
-    let report = doctor(&InThreeSteps, &|_| ());
-    assert_eq!(report.defects(), 0, "{}", page(&report));
-    let lacks = |name: &str| {
-        let mut examinations = report.examinations.iter();
-        match &examinations.find(|made| made.examination == name).expect("an examination").result {
-            ExaminationResult::NotApplicable { lacks } => lacks.clone(),
-            _ => panic!("{}", page(&report)),
-        }
-    };
-    assert!(lacks("stress").starts_with("a visible stress: in 1-D, averaging"));
-    assert_eq!(lacks("walls"), "a result of `stress`");
+    let report = healthy(&InThreeSteps);
+    assert!(lacks(&report, "stress").starts_with("a visible stress: in 1-D, averaging"));
+    assert_eq!(lacks(&report, "walls"), "a result of `stress`");
 }
 
-/// The motion of a solver that averages velocities is not a path of the examination.
+/// The motion of a solver that averages velocities is not a path of the examination. Properties of
+/// a scheme are remarks.
 #[test]
 fn doctor_does_not_examine_the_clay_of_an_averaging_solver() {
-    let report = doctor(&built_in(2, "basis: linear, transfer: pic, scheme: usl"), &|_| ());
-    assert_eq!(report.defects(), 0, "{}", page(&report));
-    let clay = report.examinations.iter().find(|made| made.examination == "clay");
-    let Some(ExaminationReport { result: ExaminationResult::NotApplicable { lacks }, .. }) = clay
-    else {
-        panic!("{}", page(&report))
-    };
-    assert!(lacks.contains("velocity gradient that stays constant"), "{lacks}");
+    let report = healthy(&built_in(2, "basis: linear, transfer: pic, scheme: usl"));
+    assert!(lacks(&report, "clay").contains("velocity gradient that stays constant"));
+    let remarks: Vec<&str> = report.findings().map(|finding| finding.name).collect();
+    assert_eq!(remarks, ["rounding-grows-on-faces", "start-half-a-step-off", "momentum-spreads"]);
 }
 
 /// A particle at a corner is inverted at the first position of the body, because the nodes there
 /// have little mass.
 #[test]
 fn defect_at_one_position_of_a_start_is_a_remark() {
-    let report = doctor(&built_in(2, "basis: linear, transfer: apic, scheme: musl"), &|_| ());
-    assert_eq!(report.defects(), 0, "{}", page(&report));
-    let mut examinations = report.examinations.iter();
-    let start = examinations.find(|made| made.examination == "start").expect("an examination");
-    let names: Vec<&str> = start.result.findings().iter().map(|finding| finding.name).collect();
+    let report = healthy(&built_in(2, "basis: linear, transfer: apic, scheme: musl"));
+    let findings = result(&report, "start").findings();
+    let names: Vec<&str> = findings.iter().map(|finding| finding.name).collect();
     assert_eq!(names, ["start-depends-on-position"]);
 }
 

@@ -29,7 +29,28 @@ type Motion<'a> = dyn Fn(&LevelProblem, Vector3<f64>, u64) -> PointState + Sync 
 struct MadeUp<'a> {
     dimension: usize,
     precision: Precision,
+    /// Number of points along the longest axis of a body (see [`lattice`]); 0 for all particles.
+    points: usize,
     motion: &'a Motion<'a>,
+}
+
+/// Returns labels and weights of a lattice with the moments of the bodies: `n` points with the
+/// distance `L/sqrt(n^2 - 1)` along each axis of length L.
+fn lattice(problem: &LevelProblem, points: usize) -> (Vec<f64>, Vec<f64>) {
+    let (mut labels, mut weights) = (Vec::new(), Vec::new());
+    for body in &problem.bodies {
+        let length = [0, 1].map(|i| body.to[i] - body.from[i]);
+        let longest = length[0].max(length[1]);
+        let n = length.map(|l| (libm::round(points as f64 * l / longest) as usize).max(2));
+        for k in 0..n[0] * n[1] {
+            labels.extend([(0, k % n[0]), (1, k / n[0])].map(|(i, k)| {
+                let from_centre = (k as f64 - 0.5 * (n[i] - 1) as f64) * length[i];
+                body.from[i] + 0.5 * length[i] + from_centre / libm::sqrt((n[i] * n[i] - 1) as f64)
+            }));
+            weights.push(length[0] * length[1] / (n[0] * n[1]) as f64);
+        }
+    }
+    (labels, weights)
 }
 
 impl SolverFactory for MadeUp<'_> {
@@ -47,11 +68,16 @@ impl SolverFactory for MadeUp<'_> {
 
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         let d = problem.dimension;
-        let particles = &problem.particles;
+        let (labels, weights) = match self.points {
+            0 => {
+                let particles = &problem.particles;
+                (particles.reference_position.clone(), particles.reference_volume.clone())
+            }
+            points => lattice(&problem, points),
+        };
         let state = |step: u64| {
             let mut samples = Samples::default();
-            let labels = particles.reference_position.chunks_exact(d);
-            for (label, weight) in labels.zip(&particles.reference_volume) {
+            for (label, weight) in labels.chunks_exact(d).zip(&weights) {
                 let point = (self.motion)(&problem, vector(label), step);
                 let [u, v] = [point.u, point.v];
                 samples.push(label, &u.as_slice()[..d], &v.as_slice()[..d], *weight);
@@ -97,15 +123,10 @@ fn examine_with(name: &str, solver: &MadeUp<'_>) -> Examined {
     }
 }
 
-/// Examines a solver of double precision in two dimensions.
-fn examine(name: &str, motion: &Motion<'_>) -> Examined {
-    examine_with(name, &MadeUp { dimension: 2, precision: Precision::Double, motion })
-}
-
 /// Asserts the names of the findings, with remarks in parentheses. The text of the first finding,
 /// or of the measured values without a finding, must contain the figure.
 #[track_caller]
-fn assert_found(examined: &Examined, names: &str, figure: &str) {
+pub(in crate::testing::doctor) fn assert_found(examined: &Examined, names: &str, figure: &str) {
     let name = |finding: &SolverFinding| match finding.weight {
         FindingWeight::Defect => finding.name.to_owned(),
         FindingWeight::Remark => format!("({})", finding.name),
@@ -129,13 +150,16 @@ pub(in crate::testing::doctor) fn rows<const N: usize>(table: &str) -> Vec<([f64
     table.trim().lines().map(row).collect()
 }
 
-/// Examines the motions with the numbers of each row of a table (see [`rows`]).
+/// Examines a solver of double precision in two dimensions with the motions for the numbers of each
+/// row of a table (see [`rows`]).
 #[track_caller]
-fn check<const N: usize, M>(name: &str, motion: impl Fn([f64; N]) -> M, table: &str)
+fn check<const N: usize, M>(points: usize, name: &str, motion: impl Fn([f64; N]) -> M, table: &str)
 where
     M: Fn(&LevelProblem, Vector3<f64>, u64) -> PointState + Sync,
 {
     for (numbers, names, figure) in rows(table) {
-        assert_found(&examine(name, &motion(numbers)), names, figure);
+        let motion = &motion(numbers);
+        let solver = MadeUp { dimension: 2, precision: Precision::Double, points, motion };
+        assert_found(&examine_with(name, &solver), names, figure);
     }
 }

@@ -51,10 +51,10 @@ fn body_at_rest_does_not_move() {
 0.99e-5 0      | single-precision         | 9.900e-6 of the distance
 1.02e-5 0      | displaced-from-the-start | displaced by (1.275e-6, 0) m
 ";
-    check("rest", still, still_rows);
+    check(0, "rest", still, still_rows);
     for (share, names) in [(0.9e-3, ""), (1.1e-3, "displaced-from-the-start")] {
         let motion = &still([share, 0.0]);
-        let solver = MadeUp { dimension: 2, precision: Precision::Single, motion };
+        let solver = MadeUp { dimension: 2, precision: Precision::Single, points: 0, motion };
         assert_found(&examine_with("rest", &solver), names, "");
     }
     // The velocity grows by a share of its last value, and the displacement is a multiple of v t.
@@ -72,7 +72,7 @@ fn body_at_rest_does_not_move() {
             state(way * t * v, v * (1.0 - share + share * t / 0.2))
         }
     };
-    check("rest", moving, moving_rows);
+    check(0, "rest", moving, moving_rows);
     // Each half moves apart by a share of the displacement, and velocities grow with the distance.
     // The outermost particles are 7/4 cells from the centre along both axes.
     let apart_rows = "
@@ -89,7 +89,7 @@ fn body_at_rest_does_not_move() {
             state(u, rate * x + drift * Vector3::x())
         }
     };
-    check("rest", apart, apart_rows);
+    check(0, "rest", apart, apart_rows);
     let positions = |[off]: [f64; 1]| {
         move |_: &LevelProblem, label, _| state(label + at(0.0, off * H), Vector3::zeros())
     };
@@ -97,7 +97,7 @@ fn body_at_rest_does_not_move() {
 0.9e-3 | positions-for-displacements | (0.5125, 0.6376)
 1.1e-3 | stress-at-rest              |
 ";
-    check("rest", positions, positions_rows);
+    check(0, "rest", positions, positions_rows);
 }
 
 /// The body moves with (0.25, -0.15625) m/s for 80 steps of 0.025 s. Columns: relative errors of
@@ -143,7 +143,7 @@ NaN    0       0       0    0    | weights-do-not-sum-to-one | are up to inf of 
             state(moved * v, (1.0 + speed) * libm::exp(-drag * t) * v)
         }
     };
-    check("translation", uniform, uniform_rows);
+    check(2, "translation", uniform, uniform_rows);
     let exchanged = |[x, y]: [f64; 2]| {
         move |problem: &LevelProblem, _, step| state(time(problem, step) * at(x, y), at(x, y))
     };
@@ -152,7 +152,7 @@ NaN    0       0       0    0    | weights-do-not-sum-to-one | are up to inf of 
 0.25     0.15625 | axes-exchanged  | direction (0.2500, 0.1562)
 0.1      0.25    | velocity-scaled |
 ";
-    check("translation", exchanged, exchanged_rows);
+    check(2, "translation", exchanged, exchanged_rows);
     // A thousandth is lost in each step, and with half the step at this multiple of the rate.
     let losses_rows = "
 1.24 | drag                 | rate of 0.04002 per second, independent
@@ -167,7 +167,7 @@ NaN    0       0       0    0    | weights-do-not-sum-to-one | are up to inf of 
             state(moved * v, libm::exp(step as f64 * log) * v)
         }
     };
-    check("translation", losing, losses_rows);
+    check(2, "translation", losing, losses_rows);
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn errors_that_differ_between_points_have_their_cause() {
             state(at(x[0].min(high), x[1].max(low)) - label, v)
         }
     };
-    check("translation", limited, limited_rows);
+    check(0, "translation", limited, limited_rows);
     // Speeds are lost at up to 0.0175 per second, in proportion to the distance from the centre and
     // to a power of the step. Without stiffness, all errors have the factor of the first column.
     let uneven_rows = "
@@ -203,7 +203,7 @@ fn errors_that_differ_between_points_have_their_cause() {
             state((t - 0.5 * loss * t * t) * v, (1.0 - loss * t) * v)
         }
     };
-    check("translation", uneven, uneven_rows);
+    check(0, "translation", uneven, uneven_rows);
 }
 
 #[test]
@@ -225,7 +225,7 @@ fn errors_at_cells_and_surfaces_have_their_cause() {
             state((time(problem, step) + off * problem.dt * steps) * v, v)
         }
     };
-    check("translation", near, near_rows);
+    check(0, "translation", near, near_rows);
     // Columns: change of the positions on faces (v dt), velocity error with stiffness, F_yx. Half
     // of the particles lie on a face after step 3.
     let faces_rows = "
@@ -249,7 +249,7 @@ fn errors_at_cells_and_surfaces_have_their_cause() {
             PointState { u: (time(problem, step) + off) * v, v: (1.0 + stiff) * v, tensors }
         }
     };
-    check("faces", on_faces, faces_rows);
+    check(0, "faces", on_faces, faces_rows);
 }
 
 /// Velocities `g (t - l dt)`; each step moves the body by `v dt + (1 + q) g dt^2/2`.
@@ -285,7 +285,7 @@ fn times_of_a_fall_have_their_cause() {
             }
         }
     };
-    check("fall", falling, times_rows);
+    check(0, "fall", falling, times_rows);
 }
 
 /// Columns: factor of gravity, its share along x, and that of the difference between two halves. A
@@ -320,7 +320,7 @@ fn factor_of_gravity_has_its_cause() {
             state(0.5 * t * t * g, t * g)
         }
     };
-    check("fall", falling, factors_rows);
+    check(0, "fall", falling, factors_rows);
 }
 
 /// The moment of momentum of a box of 4 x 4 cells with the particle spacing h/2 is lost in units of
@@ -361,7 +361,7 @@ fn losses_of_a_transfer_have_their_cause() {
             state(Vector3::zeros(), 1e-4 * if step == 0 { 1.0 } else { kept } * v)
         }
     };
-    check("transfer", losing, losses_rows);
+    check(0, "transfer", losing, losses_rows);
     // Columns: velocities after the first and after the last step, relative to the initial ones.
     // The fastest particle is 7/4 cells from the centre along both axes.
     let growth_rows = "
@@ -377,40 +377,44 @@ fn losses_of_a_transfer_have_their_cause() {
             state(Vector3::zeros(), 1e-4 * share * from_centre(problem, label))
         }
     };
-    check("initial-velocity", growing, growth_rows);
+    check(0, "initial-velocity", growing, growth_rows);
 }
 
 /// The force per mass is 0.8 + 6 t (m/s2). Columns: steps by which velocities lag and forces are
-/// late, factor of the speed, share of the growth, share of the gradient, delay of requests (s).
+/// late, factor of the speed, share of the growth, share of the gradient, delay of requests (s),
+/// share of the motion that the positions of requests have.
 #[test]
 fn times_and_places_of_a_force_have_their_cause() {
     let forces_rows = "
-0    0     1 1    1    0    |                                | in 20 steps; the speed increases by 0.80
-0.59 0     1 1    1    0    |                                |
-0    0.09  1 1    1    0    |                                |
-0    -0.59 1 1    1    0    |                                |
-0    0.41  1 1    1    0    | (force-of-the-end-of-the-step) | 20 different times in 20 steps
-0    0.3   1 1    1    0    | (force-shifted-in-time)        | about 0.3000 dt after the time
-0    -0.7  1 1    1    0    | (force-shifted-in-time)        | about 0.7000 dt before the time
-0    3.4   1 1    1    0    | (force-shifted-in-time)        | about 3.400 dt after
-0    3.6   1 1    1    0    | force-scaled                   |
-0    0     1 0.03 1    0    | force-of-one-time              | by 0.3344 m/s, expected 0.8000 m/s
-0    0     2 1    1    0    | force-scaled                   | by about 2.000: the acceleration is adde
-0    0     1 1    0.41 0    |                                |
-0    0     1 1    1.29 0    |                                |
-0    0     1 1    0.39 0    | force-of-other-points          | with X is 0.3900 of the expected one
-0    0     1 1    1.31 0    | force-of-other-points          | with X is 1.310 of the expected one
-0    0     1 1    1    0.03 |                                |
-0    0     1 1    1    0.05 | force-of-another-time          | times are 0.05000 to 0.4300 s, but the r
+0    0     1 1    1    0    0 |                                | in 20 steps; the speed increases by 0.80
+0.59 0     1 1    1    0    0 |                                |
+0    0.09  1 1    1    0    0 |                                |
+0    -0.59 1 1    1    0    0 |                                |
+0    0.41  1 1    1    0    0 | (force-of-the-end-of-the-step) | 20 different times in 20 steps
+0    0.3   1 1    1    0    0 | (force-shifted-in-time)        | about 0.3000 dt after the time
+0    -0.7  1 1    1    0    0 | (force-shifted-in-time)        | about 0.7000 dt before the time
+0    3.4   1 1    1    0    0 | (force-shifted-in-time)        | about 3.400 dt after
+0    3.6   1 1    1    0    0 | force-scaled                   |
+0    0     1 0.03 1    0    0 | force-of-one-time              | by 0.3344 m/s, expected 0.8000 m/s
+0    0     2 1    1    0    0 | force-scaled                   | by about 2.000: the acceleration is adde
+0    0     1 1    0.41 0    0 |                                |
+0    0     1 1    1.29 0    0 |                                |
+0    0     1 1    0.39 0    0 | force-of-other-points          | with X is 0.3900 of the expected one
+0    0     1 1    1.31 0    0 | force-of-other-points          | with X is 1.310 of the expected one
+0    0     1 1    1    0.03 0 |                                |
+0    0     1 1    1    0.05 0 | force-of-another-time          | times are 0.05000 to 0.4300 s, but the r
+0    0     1 1    1    0    0.32 |                           |
+0    0     1 1    1    0    0.34 | force-at-present-positions | the body has moved by 0.09500 m
 ";
-    let forced = |[lag, late, factor, growth, gradient, delay]: [f64; 6]| {
+    let forced = |[lag, late, factor, growth, gradient, delay, moved]: [f64; 7]| {
         move |problem: &LevelProblem, label: Vector3<f64>, step: u64| {
             let (t, dt, v0) = (time(problem, step), problem.dt, initial_velocity(problem));
             let field = problem.body_force.as_ref().expect("a force");
             if step == 0 {
                 return state(Vector3::zeros(), v0);
             }
-            let force = field.at(0, &label.as_slice()[..2], t - dt + delay)[0];
+            let place = label + moved * (t - dt) * v0;
+            let force = field.at(0, &place.as_slice()[..2], t - dt + delay)[0];
             if v0[0] == 0.0 {
                 return state(Vector3::zeros(), at(gradient * force * dt, 0.0));
             }
@@ -419,7 +423,7 @@ fn times_and_places_of_a_force_have_their_cause() {
             state(Vector3::zeros(), v0 + at(factor * gained, 0.0))
         }
     };
-    check("force", forced, forces_rows);
+    check(0, "force", forced, forces_rows);
 }
 
 /// The body moves by 0.375 m, and the period is 0.5 m. Columns: axis of the mistake, displacement
@@ -445,7 +449,7 @@ fn displacements_along_a_periodic_axis_are_not_wrapped() {
             state(u, (1.0 - lost) * v)
         }
     };
-    check("periodic", wrapped, wrapped_rows);
+    check(0, "periodic", wrapped, wrapped_rows);
 }
 
 /// Columns: relative change of displacements in the second run, for one message, and for one
@@ -478,5 +482,5 @@ fn runs_and_messages_give_equal_results() {
             state((1.0 + of_message + of_run) * of_step * time(problem, step) * v, v)
         }
     };
-    check("conversation", changing, changes_rows);
+    check(0, "conversation", changing, changes_rows);
 }

@@ -53,7 +53,7 @@ fn damping_has_its_rate_and_share() {
 -0.955 -1.045 1.0 1.0   | damping-sign          |
 1.0 1.0 0.045 -0.045    | local-damping-missing |
 ";
-    check("damping", motion, rows);
+    check(2, "damping", motion, rows);
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn traction_has_its_force_and_face() {
 2.0 2.0 2.0 1.0     | traction-doubled           |
 -1.0 -1.0 -1.0 1.0  | traction-sign              | normal -1.000
 ";
-    check("traction", motion, rows);
+    check(2, "traction", motion, rows);
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn moving_wall_has_its_force_and_displacement() {
 -0.55 -0.72 -1.28 1.0 | wall-velocity-sign              |
 1.0 1.0 1.0 0.28      | wall-velocity-along-normal-only |
 ";
-    check("moving-wall", motion, rows);
+    check(16, "moving-wall", motion, rows);
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn friction_has_its_impulses() {
 1.0 0.14 0.0 0.0      | friction-missing  |
 1.0 -0.86 0.0 0.0     | friction-pushes   |
 ";
-    check("friction", motion, rows);
+    check(2, "friction", motion, rows);
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn contact_has_its_forces() {
 0.0 1.0 0.0    | contact-missing  |
 1.0 1.0 1.0    | contact-pulls    | during separation 1.000
 ";
-    check("contact", motion, rows);
+    check(2, "contact", motion, rows);
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn alternating_mode_stays_small() {
 0.41  | hourglass-mode | 0.4100
 -0.41 | hourglass-mode |
 ";
-    check("hourglass", motion, rows);
+    check(0, "hourglass", motion, rows);
 }
 
 #[test]
@@ -236,7 +236,7 @@ fn kinetic_energy_of_a_vibration_does_not_grow() {
 1.31 80.0 | vibration-grows | at most 1.310 times
 NaN 1.0   | vibration-grows | at most inf times
 ";
-    check("vibration", motion, rows);
+    check(0, "vibration", motion, rows);
 }
 
 #[test]
@@ -268,7 +268,7 @@ fn load_steps_have_their_shares() {
 1.0 1.0 2.0 3.0 4.0 5.0 0.0        | load-per-step      |
 0.0 0.0 0.2 0.4 0.6 0.8 0.0        | load-one-step-late |
 ";
-    check("load-steps", motion, rows);
+    check(0, "load-steps", motion, rows);
 }
 
 #[test]
@@ -287,5 +287,5 @@ fn ends_of_a_periodic_axis_stop_each_other() {
 0.39 0.9  | periodic-axis | along x: one half of the body transfers 0.3900
 0.9 0.39  | periodic-axis | along y: one half of the body transfers 0.3900
 ";
-    check("periodic-ends", motion, rows);
+    check(0, "periodic-ends", motion, rows);
 }

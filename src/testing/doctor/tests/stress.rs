@@ -98,7 +98,7 @@ fn moduli_have_their_cause() {
             PointState { v, ..PointState::default() }
         }
     };
-    check("stress", strained, moduli_rows);
+    check(4, "stress", strained, moduli_rows);
 }
 
 /// Columns: factors of all moduli, of the column `stress`, of F - I, and of F_xy alone. The body
@@ -136,7 +136,7 @@ fn factors_and_columns_have_their_cause() {
             PointState { v, tensors: Some([law * (stress * t), f]), ..PointState::default() }
         }
     };
-    check("stress", scaled, factors_rows);
+    check(8, "stress", scaled, factors_rows);
 }
 
 /// Columns: moduli of the first body, which has 1.7 kg/m3, and of the second one, which is 2.6
@@ -170,7 +170,7 @@ fn bodies_have_their_moduli() {
             PointState { v, ..PointState::default() }
         }
     };
-    check("bodies", strained, moduli_rows);
+    check(4, "bodies", strained, moduli_rows);
 }
 
 /// Columns: force relative to that of the initial stress, its delay (steps), change of
@@ -215,5 +215,5 @@ fn initial_stress_has_its_force() {
             PointState { u, v: gained(x, length, 1.7, &impulse), tensors: None }
         }
     };
-    check("start", released, forces_rows);
+    check(4, "start", released, forces_rows);
 }

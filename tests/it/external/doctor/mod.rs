@@ -1,90 +1,62 @@
-//! The doctor: each defect of a small client is reported, without false positives.
+//! The doctor: defects of the built-in solver in the role of an external one, and the solver of the
+//! example.
 
-mod client;
-mod defect;
 #[cfg(unix)]
 mod program;
 
 use crate::common::folder::flat;
+use crate::false_alarms::{BuiltIn, built_in};
 use crate::testing::OwnSolver;
-use client::Clinic;
-use defect::Defect;
-use mpm_verify::testing::{ExaminationReport, ExaminationResult, FindingWeight, doctor, page};
+use mpm_verify::external::{LevelProblem, ProblemNeeds, SolverFactory};
+use mpm_verify::subject::{Subject, SubjectError};
+use mpm_verify::testing::{ExaminationReport, ExaminationResult, doctor, page};
 use rstest::rstest;
-use std::cell::Cell;
-use std::env;
-use std::sync::atomic::Ordering;
 
-/// Runs the doctor on a client. Returns its defects, its other remarks, and the report.
-/// Examinations after `last`, if given, are not applicable.
-fn found(defect: Defect, last: Option<&str>) -> (Vec<&'static str>, Vec<&'static str>, String) {
-    let clinic = Clinic::new(defect);
-    let is_last = Cell::new(false);
-    let progress = |examination: &str| {
-        clinic.is_closed.fetch_or(is_last.get(), Ordering::Relaxed);
-        is_last.set(last == Some(examination));
-    };
-    let report = doctor(&clinic, &progress);
-    let of = |weight: FindingWeight| {
-        let all = report.findings().filter(|finding| finding.weight == weight);
-        all.map(|finding| finding.name).collect()
-    };
-    (of(FindingWeight::Defect), of(FindingWeight::Remark), page(&report))
+/// The built-in solver, which receives other problems.
+struct Faulty(BuiltIn, fn(&mut LevelProblem));
+
+impl SolverFactory for Faulty {
+    fn name(&self) -> &'static str {
+        "faulty"
+    }
+
+    fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
+        self.0.lacks(needs)
+    }
+
+    fn subject(&self, mut problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+        self.1(&mut problem);
+        self.0.subject(problem)
+    }
 }
 
-/// Defects with the examination and the name of their finding. With the variable `NIGHTLY`, all
-/// later examinations run, too.
+/// Some authors read only the last lines, the verdict.
 #[rstest]
-#[case(Defect::GravityLeftOn, "rest", "gravity-left-on")]
-#[case(Defect::StressAtStart, "rest", "stress-at-rest")]
-#[case(Defect::Drag, "translation", "drag")]
-#[case(Defect::WeightsOfTheirOwn, "translation", "weights-do-not-sum-to-one")]
-#[case(Defect::LowWeights, "translation", "weights-do-not-sum-to-one")]
-#[case(Defect::UnevenWeightsInPic, "translation", "weights-do-not-sum-to-one")]
-#[case(Defect::GradientsOfTheirOwn, "translation", "gradients-do-not-sum-to-zero")]
-#[case(Defect::LossAtCrossings, "translation", "wrong-after-a-cell-crossing")]
-#[case(Defect::LightNodesLeftOut, "translation", "light-nodes-left-out")]
-#[case(Defect::NoCellOnFaces, "faces", "particles-on-faces")]
-#[case(Defect::ForwardEuler, "fall", "positions-before-velocities")]
-#[case(Defect::ForceAtPresentPositions, "force", "force-at-present-positions")]
-#[case(Defect::ForceOfOtherPoints, "force", "force-of-other-points")]
-#[case(Defect::WholeCells, "stress", "mass-or-volume-scaled")]
-#[case(Defect::NoDensity, "stress", "mass-or-volume-scaled")]
-#[case(Defect::NoWalls, "walls", "wall-missing")]
-#[case(Defect::WallsLetGo, "walls", "wall-lets-go")]
-#[case(Defect::StickyRollers, "walls", "roller-holds-tangent")]
-#[case(Defect::LowWallsOnly, "walls", "wall-missing")]
-#[case(Defect::FixedHoldsNormal, "walls", "fixed-lets-slide")]
-#[case(Defect::LoadAfterWalls, "walls", "wall-moves-under-gravity")]
-#[case(Defect::HeldAcceleration, "walls", "wall-holds-acceleration-only")]
-#[case(Defect::AbsoluteThreshold, "faces", "light-nodes-left-out")]
-fn a_defect_is_named_and_no_other(
-    #[case] defect: Defect,
-    #[case] examination: &str,
-    #[case] name: &str,
-) {
-    let (defects, _, page) =
-        found(defect, Some(examination).filter(|_| env::var_os("NIGHTLY").is_none()));
-    assert_eq!(defects, [name], "{page}");
-}
-
-/// Properties of a scheme are reported as remarks, not as defects.
-#[rstest]
-#[case(Defect::Nothing, &["rounding-grows-on-faces", "start-half-a-step-off"])]
-#[case(Defect::Leapfrog, &["rounding-grows-on-faces", "velocity-half-a-step-behind"])]
-#[case(
-    Defect::Pic,
-    &["rounding-grows-on-faces", "start-half-a-step-off", "momentum-spreads"]
+#[case::no_density(
+    |p: &mut LevelProblem| p.particles.mass.clone_from(&p.particles.volume),
+    "mass-or-volume-scaled"
 )]
-#[ignore = "ci/nightly runs it"]
-#[case(
-    Defect::PicAtFirst,
-    &["rounding-grows-on-faces", "start-half-a-step-off", "first-step-spreads"]
+#[case::sticky_rollers(
+    |p: &mut LevelProblem| p.faces.iter_mut().for_each(|face| if face.condition == "roller" {
+        face.condition = "fixed";
+    }),
+    "roller-holds-tangent"
 )]
-fn correct_client_has_remarks_only(#[case] scheme: Defect, #[case] remarks: &[&str]) {
-    let (defects, found, page) = found(scheme, None);
-    assert!(defects.is_empty(), "{page}");
-    assert_eq!(found, remarks, "{page}");
+#[case::transposed(
+    |p: &mut LevelProblem| {
+        p.particles.deformation_gradient.chunks_exact_mut(4).for_each(|f| f.swap(1, 2));
+    },
+    "initial-deformation-transposed"
+)]
+fn report_ends_with_the_only_defect(#[case] fault: fn(&mut LevelProblem), #[case] name: &str) {
+    let sound = built_in(2, "basis: linear, transfer: flip, scheme: usl");
+    let page = page(&doctor(&Faulty(sound, fault), &|_| ()));
+    let flat = flat(&page);
+    let verdict = flat.rsplit_once("verdict: ").expect("a verdict").1;
+    assert!(verdict.starts_with(&format!("{name}; ")), "{page}");
+    let end = " skipped until all defects are corrected; remarks: rounding-grows-on-faces, \
+               start-half-a-step-off";
+    assert!(verdict.ends_with(end), "{page}");
 }
 
 /// The solver of the example is one-dimensional, has no gravity, and sends no requests.
@@ -119,19 +91,5 @@ fn solver_of_the_example_has_no_defects() {
             "periodic-ends",
             "load-steps"
         ]
-    );
-}
-
-/// The last lines must be the verdict, because some authors read only these.
-#[test]
-fn report_ends_with_the_verdict() {
-    let (_, _, page) = found(Defect::Drag, None);
-    let flat = flat(&page);
-    assert!(flat.contains("speed is lost at a rate of 0.5"), "{page}");
-    assert!(
-        flat.ends_with(
-            "verdict: drag; 1 not applicable; 24 skipped until all defects are corrected"
-        ),
-        "{page}"
     );
 }

@@ -251,7 +251,7 @@ fn sinks(wall: &Wall) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::doctor::tests::rows;
+    use crate::testing::doctor::tests::{assert_found, rows};
 
     /// Columns: forces on a body that is pushed, is pulled, moves along, and falls; force in the
     /// first step of a fall; displacement through the wall; jump; sinking, and sinking with half
@@ -308,12 +308,7 @@ NaN  1    1    1    0     0     1   0    0     0     1    | wall-force          
             };
             let sound = wall("left", [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
             let found = finding(&[sound, wall("right", numbers)]);
-            let named = found.as_ref().map_or(String::new(), |finding| match finding.weight {
-                FindingWeight::Defect => finding.name.to_owned(),
-                FindingWeight::Remark => format!("({})", finding.name),
-            });
-            assert_eq!(named, name, "{found:?}");
-            assert!(found.is_none_or(|finding| finding.seen.contains(figure)), "no `{figure}`");
+            assert_found(&Examined::new(String::new(), found), name, figure);
         }
     }
 }
