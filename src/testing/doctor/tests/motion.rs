@@ -285,7 +285,7 @@ fn times_of_a_fall_have_their_cause() {
             }
         }
     };
-    check(0, "fall", falling, times_rows);
+    check(2, "fall", falling, times_rows);
 }
 
 /// Columns: factor of gravity, its share along x, and that of the difference between two halves. A
@@ -320,7 +320,7 @@ fn factor_of_gravity_has_its_cause() {
             state(0.5 * t * t * g, t * g)
         }
     };
-    check(0, "fall", falling, factors_rows);
+    check(2, "fall", falling, factors_rows);
 }
 
 /// The moment of momentum of a box of 4 x 4 cells with the particle spacing h/2 is lost in units of
