@@ -86,5 +86,5 @@ fn forces_and_motions_at_walls_are_measured() {
             state
         }
     };
-    check(8, "walls", walls, walls_rows);
+    check(4, "walls", walls, walls_rows);
 }
