@@ -15,10 +15,9 @@ pub(super) fn select(runs: Vec<SuiteRuns>) -> Result<Vec<SuiteRuns>, CommandErro
     let list = list.map_err(|_| {
         CommandError::about("--last-failed", "no case of the last run in this folder failed")
     })?;
-    let failed = |suite: &str, case: &str| list.lines().any(|line| line == key(suite, case));
     let only = |runs: SuiteRuns| {
         let suite = runs.suite().name.clone();
-        runs.only(|case| failed(&suite, case))
+        runs.only(|case| is_listed(&list, &suite, case))
     };
     let chosen: Vec<SuiteRuns> = runs.into_iter().filter_map(only).collect();
     if chosen.is_empty() {
@@ -46,6 +45,24 @@ pub(super) fn record(outcomes: &[SuiteOutcome]) -> io::Result<()> {
     fs::write(folder.join("last-failed"), failed)
 }
 
+fn is_listed(list: &str, suite: &str, case: &str) -> bool {
+    list.lines().any(|line| line == key(suite, case))
+}
+
 fn key(suite: &str, case: &str) -> String {
     format!("{suite}::{case}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_whole_names_of_failed_cases_are_listed() {
+        let list = "bar::flip-usl\nbar::flip-musl\n";
+        assert!(is_listed(list, "bar", "flip-musl"));
+        for (suite, case) in [("bar", "flip"), ("bar", "usl"), ("a-bar", "flip-usl"), ("ba", "")] {
+            assert!(!is_listed(list, suite, case), "{suite}::{case}");
+        }
+    }
 }

@@ -34,6 +34,24 @@ fn unstable_step_is_used_with_a_warning() {
     assert_eq!((found.code, warnings(&found.errors).len()), (FAILED, 3), "{}", found.errors);
 }
 
+/// The limit from few iterations is larger than this step.
+#[test]
+fn step_just_above_the_limit_has_a_warning() {
+    let bar = |dt: &str| {
+        bar(&format!("dt: {dt}, instants: 1"))
+            .replace("until: 0.05", "until: 10")
+            .replace("basis: linear", "basis: quadratic_bspline")
+            .replace("ppc: 4", "ppc: 2")
+    };
+    let folder = Folder::with("bar.yaml", bar("auto"));
+    let document = folder.call(&["steps", "bar.yaml", "--format", "json"]).json();
+    let half = document["suites"][0]["levels"][3]["dt"].as_f64().expect("a step");
+    folder.write("bar.yaml", bar(&(2.04 * half).to_string()));
+    let errors = folder.call(&["run", "bar.yaml"]).errors;
+    let [warning] = warnings(&errors)[..] else { panic!("{errors}") };
+    assert_contains(warning, &[" 12 cells: dt = ", " s is 1.02 times the stable time step, "]);
+}
+
 fn warnings(errors: &str) -> Vec<&str> {
     errors.lines().filter(|line| line.starts_with("warning: ")).collect()
 }

@@ -62,7 +62,9 @@ fn one_ranking_by_seconds_has_methods_and_solvers(folder: Folder) {
     assert_eq!(ranked, all);
     assert_eq!(suite["cost"][0]["work"], "seconds");
     for case in suite["cases"].as_array().unwrap() {
-        for level in case["levels"].as_array().unwrap() {
+        let levels = case["levels"].as_array().unwrap();
+        assert_eq!(levels.len(), 4, "{case}");
+        for level in levels {
             assert!(level["seconds"]["median"].as_f64() > Some(0.0), "{case}");
         }
     }

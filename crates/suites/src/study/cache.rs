@@ -159,6 +159,22 @@ mod tests {
         }
     }
 
+    /// A result is read back by the program that wrote it only.
+    #[test]
+    fn result_of_another_program_is_not_read() {
+        let folder = std::env::temp_dir().join(format!("mpm-verify-cache-{}", std::process::id()));
+        let mut cache = ResultCache::open(&folder).expect("a folder");
+        let mut read = |program: u64, value: f64| {
+            cache.program = program;
+            cache.level("key", "level 1", || Ok(value)).expect("a result")
+        };
+        assert_eq!(
+            [read(1, 0.25), read(2, 0.5), read(1, 4.0), read(2, 8.0)],
+            [0.25, 0.5, 0.25, 0.5]
+        );
+        fs::remove_dir_all(folder).expect("a folder");
+    }
+
     #[test]
     fn truncated_results_and_other_keys_are_ignored() {
         let text = text("key", &some(1.5, None)).unwrap();

@@ -140,8 +140,8 @@ mod tests {
         record
     }
 
-    /// The first two runs have equal sizes, but differ at each label. The first and the last one
-    /// differ by 2e-6 and 4e-6 m.
+    /// The first two runs have equal sizes, but differ at each label. The last two differ most, by
+    /// 2e-6 and 4e-6 m.
     #[rstest]
     #[case(NormName::Linf, 4.0)]
     #[case(NormName::Rms, 10.0_f64.sqrt())]
@@ -149,7 +149,7 @@ mod tests {
     #[case(NormName::L2, 13.0_f64.sqrt())]
     #[case(NormName::MaxMassL2, 12.0_f64.sqrt())]
     fn spread_is_the_largest_difference_of_two_runs(#[case] norm: NormName, #[case] expected: f64) {
-        let runs = [[1e-6, 2e-6], [2e-6, 1e-6], [3e-6, -2e-6]];
+        let runs = [[2e-6, 1e-6], [1e-6, 2e-6], [3e-6, -2e-6]];
         // The order of particles adds no spread.
         let run = |[a, b]: [f64; 2]| {
             let mut points = [(0.0, a), (1.0, b)];

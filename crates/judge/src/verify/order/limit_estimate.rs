@@ -285,7 +285,7 @@ mod tests {
     #[case::few(&[4.0, 2.0, 1.5], "too few levels: 3, expected 4 or more")]
     #[case::nan(&[4.0, 2.0, f64::NAN, 1.5], "unusable values: spacings must be positive and different, values finite")]
     #[case::constant(&[1.0, 1.0, 1.0, 1.0], "rounding: the last change, 0.0e0, is below 16 times the rounding of the values, 8.9e-16")]
-    #[case::converged(&[1.5e6, 1.25e6, 1.125e6, 1.125e6 + 1e-9], "rounding: the last change, 9.3e-10, is below 16 times the rounding of the values, 1.3e-9")]
+    #[case::converged(&[-1.5e6, -1.25e6, -1.125e6, -1.125e6 - 1e-9], "rounding: the last change, 9.3e-10, is below 16 times the rounding of the values, 1.3e-9")]
     #[case::fine_oscillation(&[3.0, 1.0, 2.0, 1.5], "oscillation: the changes between the finest levels alternate in sign")]
     #[case::coarse_oscillation(&[1.0, 2.0, 1.5, 1.4], "oscillation: the changes between the finest levels alternate in sign")]
     #[case::growing(&[1.0, 2.0, 4.0, 8.0], "no asymptotic range: the changes between the finest levels do not shrink")]

@@ -143,12 +143,15 @@ mod tests {
         assert_relative_eq!(log_kept, 40.0 * libm::log(r), max_relative = 1e-12);
     }
 
-    /// Real eigenvalues, here 0.5 and 0.6, have no phase. The larger one determines the damping.
+    /// Real eigenvalues, here 0.5 and 0.6 or -0.5 and -0.6, have no phase. The larger modulus
+    /// determines the damping.
     #[test]
     fn an_overdamped_wave_has_no_phase() {
-        let found = Recurrence::new(1.1, 0.3);
-        assert_eq!(found.angle(), None);
-        assert_relative_eq!(found.log_modulus(), libm::log(0.6), max_relative = 1e-12);
+        for trace in [1.1, -1.1] {
+            let found = Recurrence::new(trace, 0.3);
+            assert_eq!(found.angle(), None);
+            assert_relative_eq!(found.log_modulus(), libm::log(0.6), max_relative = 1e-12);
+        }
     }
 
     #[test]
