@@ -153,7 +153,7 @@ fn stability(seeks: bool) -> StabilityStudy {
     let confirmed = vec![(0.9, trial(2, Stability::Stable)), (1.1, trial(3, Stability::Unstable))];
     let at = Prediction { limit: StabilityLimit::At(0.731), leaves: Some((-0.6, 0.8)) };
     let limits = [
-        Critical { predicted: Some(at), confirmed, observed: None },
+        Critical { predicted: Some(at), confirmed, observed: Some(StabilityLimit::Below(0.05)) },
         Critical {
             predicted: None,
             confirmed: Vec::new(),

@@ -4,8 +4,9 @@ use super::fixture::{
     FIGURES, convergence, digits, figure, interval, outcome, ranking, timed_suite,
 };
 use super::*;
+use crate::subject::{ColumnSize, Holder};
 use crate::verify::{
-    Axis, CaseOutcome, ChangedRun, Convergence, Diagnosis, EstimateRefusal, Judgement,
+    Axis, CaseOutcome, ChangedRun, Convergence, Diagnosis, EstimateRefusal, Judgement, Quantity,
     StudyResults, SuiteOutcome, Verdict,
 };
 use rstest::rstest;
@@ -78,7 +79,7 @@ fn csv_has_each_value_in_its_row_and_column() {
         7|forces.position=0.625|forces.n_left=2|forces.n_right=5|forces.force=-2.5|\
         forces.predicted=-2.0\n\
         8|case=limit|stability.value=0.25|stability.predicted.at=0.731|stability.observed.above=|\
-        stability.confirmed.0.share=0.9|stability.confirmed.0.steps=502|\
+        stability.observed.below=0.05|stability.confirmed.0.share=0.9|stability.confirmed.0.steps=502|\
         stability.confirmed.0.verdict=stable|stability.confirmed.1.share=1.1|\
         stability.confirmed.1.steps=503|stability.confirmed.1.verdict=unstable\n\
         9|stability.value=0.375|stability.predicted.at=|stability.observed.above=4.0\n\
@@ -108,7 +109,9 @@ fn has_values(document: &Value, place: &str, expected: &Value) {
 /// The rows of levels, forces and limits are those of the CSV.
 #[test]
 fn json_has_each_value_at_its_key() {
-    let document: Value = serde_json::from_str(&json(&[outcome()])).expect("JSON");
+    let mut outcome = outcome();
+    outcome.cases.push(CaseOutcome::new("excepted", "mpm", vec![]).excepted("a gap".to_owned()));
+    let document: Value = serde_json::from_str(&json(&[outcome])).expect("JSON");
     let expected = json!({
         "suite": "odd", "group": "ends", "title": "50 % of a bar", "source": "a book",
         "problem": "0000000000000abc", "statement": [["young", "E = 7"]], "passed": false,
@@ -116,6 +119,7 @@ fn json_has_each_value_at_its_key() {
         "cases/0/because": "a proof", "cases/0/reason": "reason mpm-linear", "cases/0/passed": true,
         "cases/1/passed": false, "cases/1/unmet": ["the run failed"], "cases/1/codes": ["run-failed"],
         "cases/7/passed": false, "cases/7/lacks": ["fixed"], "cases/7/levels": [],
+        "cases/8/passed": false, "cases/8/result": "known limit", "cases/8/expected": null,
         "cases/0/profile": {
             "effects": ["gravity", "traction"], "particles": 20, "nodes": 9,
             "passes": ["P2G(mass)", "G2P(x)"],
@@ -176,13 +180,15 @@ fn text_has_each_value_in_its_row_and_column() {
 
 #[test]
 fn profile_distinguishes_full_and_partial_columns() {
-    let rows = profile(outcome().cases[0].profile.as_ref().expect("a profile"));
+    let mut columns = outcome().cases.remove(0).profile.expect("a profile");
+    columns.columns.push(ColumnSize { name: "fixed", holder: Holder::Node, entries: 3, bytes: 1 });
+    let rows = profile(&columns);
     let expected = [
         ("effects", "gravity, traction"),
         ("a step", "P2G(mass), G2P(x)"),
         ("particle visits", "p2g mass x 2, g2p x at 3 of 20 particles"),
         ("particle memory", "16 B: X 16; layer 2 at 4 of 20"),
-        ("node memory", "8 B: m 8"),
+        ("node memory", "8 B: m 8; fixed 1 at 3 of 9"),
     ];
     for (key, text) in expected {
         assert!(rows.contains(&(key, text.to_owned())), "{key}: {rows:?}");
@@ -196,7 +202,27 @@ fn latex_has_the_errors_and_orders_of_each_case() {
     assert_eq!(latex(&[outcome()]).strip_prefix(&head), Some(LATEX));
 }
 
-/// A case that its solver does not support fails only in a suite that is required.
+/// Only the second case has excluded levels and no valid order, and the third has other levels.
+#[test]
+fn latex_tables_have_cases_with_equal_levels() {
+    let latex = latex(&[copies(3, |k, study| {
+        study.bounded = k != 1;
+        study.levels[0].usable = true;
+        study.levels.iter_mut().for_each(|level| level.cells = level.cells * [5, 5, 8][k] / 5);
+        study.judgement.verdict = [Verdict::Converging, Verdict::TooLow, Verdict::Converging][k];
+    })]);
+    let (first, second) = latex.split_once("\\end{table}").expect("two tables");
+    let order = "{$2.00$ [$1.90$, $2.20$]}";
+    let orders =
+        format!(" & \\multicolumn{{2}}{{c}}{order} & \\multicolumn{{2}}{{c}}{{too low}} \\\\");
+    assert!(first.contains(&orders) && second.contains(&format!("{{c}}{order} \\\\")), "{latex}");
+    assert!(first.contains("    $20$ & ") && second.contains("    $32$ & "), "{latex}");
+    let aside = "Levels in parentheses";
+    assert!(first.contains(aside) && !second.contains(aside), "{latex}");
+}
+
+/// A case that its solver does not support, or that the gate exempts, fails only in a suite that is
+/// required.
 #[test]
 fn junit_has_the_result_of_each_case_and_the_times_of_the_run_and_the_suite() {
     let times = RunTimes {
@@ -206,6 +232,7 @@ fn junit_has_the_result_of_each_case_and_the_times_of_the_run_and_the_suite() {
     };
     let mut short = outcome();
     short.cases.drain(2..7);
+    short.cases.push(CaseOutcome::new("excepted", "mpm", vec![]).excepted("a gap".to_owned()));
     let report = case(&short.cases[1]);
     let of = |required: &[&str]| {
         let required = required.iter().map(|suite| (*suite).to_owned()).collect();
@@ -214,14 +241,17 @@ fn junit_has_the_result_of_each_case_and_the_times_of_the_run_and_the_suite() {
     let start = "timestamp=\"1970-01-02T00:00:00.000+00:00\"";
     let expected = format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>
-<testsuites name="mpm-verify" tests="3" skipped="1" failures="1" errors="0" {start} time="7.500">
-    <testsuite name="odd" tests="3" skipped="1" errors="0" failures="1" {start} time="2.250">
+<testsuites name="mpm-verify" tests="4" skipped="2" failures="1" errors="0" {start} time="7.500">
+    <testsuite name="odd" tests="4" skipped="2" errors="0" failures="1" {start} time="2.250">
         <testcase name="mpm-linear" classname="odd"/>
         <testcase name="mpm-ugimp" classname="odd">
             <failure message="the run failed" type="failed">{report}</failure>
         </testcase>
         <testcase name="other" classname="odd">
             <skipped message="the solver lacks fixed"/>
+        </testcase>
+        <testcase name="excepted" classname="odd">
+            <skipped message="a gap"/>
         </testcase>
     </testsuite>
 </testsuites>
@@ -260,8 +290,18 @@ fn ranking_has_each_work_in_its_row_and_column() {
         "methods/1/reached/1": null,
     });
     has_values(&document, "/0", &expected);
+    let mut ranking = ranking();
+    let exponent = ranking.rows[1].exponent.as_mut().expect("an exponent");
+    (exponent.theory, exponent.growth) = (-1.0, (3.0, 2.0));
+    assert!(cost(&ranking, "seconds").contains("-1.00  growth of work 3.00, not 2.00\n"));
+    let document = json!(json::rankings(std::slice::from_ref(&ranking), "seconds"));
+    has_values(&document, "/0/methods/1/exponent", &json!({ "agrees": false }));
+    // The coarsest level of a method is not asymptotic, and the finest of the other one does not
+    // converge: both are outside the window.
+    ranking.rows[0].method.samples[0].asymptotic = false;
+    ranking.rows[1].part.levels = 0..2;
     // The first method is on the front with all levels, and the other one with two.
-    let figure = &cost_figures(&outcome(), &[ranking()], "seconds (s)", "seconds")[0];
+    let figure = &cost_figures(&outcome(), &[ranking], "seconds (s)", "seconds")[0];
     let legend = figure.pgfplots.lines().filter(|line| line.starts_with("\\addlegendentry"));
     let names =
         ["exact", "cheap", "Pareto front"].map(|name| format!("\\addlegendentry{{{name}}}"));
@@ -270,7 +310,7 @@ fn ranking_has_each_work_in_its_row_and_column() {
     let (exact, cheap) =
         (["1e1 4e-2", "1e2 4e-3", "1e3 4e-4"], ["3e0 8e-2", "2.4e1 2e-2", "1.92e2 5e-3"]);
     let front = [cheap[0], exact[0], cheap[1], exact[1], exact[2]];
-    let drawn = [&exact[..], &exact, &cheap, &cheap, &front].concat();
+    let drawn = [&exact[..], &exact[1..], &cheap, &cheap[..2], &front].concat();
     assert_eq!((figure.file.as_str(), points.collect::<Vec<_>>()), ("odd-work-seconds.svg", drawn));
     let share =
         |value: f64, low: f64, high: f64| 0.06 + 0.88 * (value / low).ln() / (high / low).ln();
@@ -330,6 +370,10 @@ fn plot_marks_each_level_at_its_spacing_and_error() {
         "0.2 0.8 cell size h (m)"
     );
     assert_eq!(lines[16..18], ["  a  mpm-linear: 2.00 [1.90, 2.20]", "  b  mpm-ugimp: failed"]);
+    // Errors of another quantity have another unit.
+    let quantities = [Quantity::Displacement, Quantity::Stress];
+    let plot = convergence_plot(&copies(2, |k, study| study.settings.of = quantities[k]));
+    assert!(plot.is_some_and(|plot| plot.contains("  a  case-0: 2.00 [1.90, 2.20]\n")));
 }
 
 #[test]
@@ -353,7 +397,9 @@ fn page_has_the_values_of_each_case() {
     }
     let version = format!("mpm-verify {}", env!("CARGO_PKG_VERSION"));
     let title = ": 50 % of a bar</h2>";
-    for words in [&version, title, "a book", "0000000000000abc", "reason: a proof"] {
+    // The first two cases have the same expectation for different reasons.
+    let reason = "rowspan=\"1\">order 1.75; reason: a guess</td>";
+    for words in [&version, title, "a book", "0000000000000abc", "reason: a proof", reason] {
         assert!(page.contains(words), "{words}");
     }
     // One of one linear case has the order of theory, and none of the cases of uGIMP.
@@ -540,6 +586,7 @@ fn copies(count: usize, change: impl Fn(usize, &mut Convergence)) -> SuiteOutcom
     "$1.101 \\times 10^{-3}$ & ",
     "    dt = 1.001e-03, 1.101e-03, 1.201e-03 s\n    5 ... 20 cells along X\n    h = 0.4 ... 0.1 m\n    4",
     "time step dt (s)",
+    "levels levels dt 1-2 2-3 case-0",
     json!(["time", 1.75])
 )]
 #[case(
@@ -548,6 +595,7 @@ fn copies(count: usize, change: impl Fn(usize, &mut Convergence)) -> SuiteOutcom
     "$5$ & ",
     "    4, 5, 6 particles per cell\n    5 ... 20 cells along X\n    h = 0.4 ... 0.1 m\n    dt = 0.001001",
     "particle spacing h/ppc^(1/D) (m)",
+    "ppc 4-5 5-6 case-0",
     json!(["particles", null])
 )]
 fn refined_axis_names_the_levels(
@@ -556,6 +604,7 @@ fn refined_axis_names_the_levels(
     #[case] row: &str,
     #[case] levels: &str,
     #[case] label: &str,
+    #[case] pairs: &str,
     #[case] keys: Value,
 ) {
     let outcome = copies(1, |_, study| study.settings.axis = axis);
@@ -564,6 +613,8 @@ fn refined_axis_names_the_levels(
     assert!(latex.contains(&format!("    {row}$2.000 \\times 10^{{-2}}$ & $1.11$")), "{latex}");
     assert!(report.contains(&format!("  levels\n{levels}")), "{report}");
     assert!(texts(&svg(&outcome)[0].svg).contains(&label));
+    let words = report.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains(&format!("order between neighbouring levels {pairs}")), "{report}");
     let case = suite::json::case(&outcome.cases[0]);
     assert_eq!(json!([case["axis"], case["formal_order"]]), keys);
 }
@@ -624,6 +675,9 @@ fn curves_of_many_cases_are_drawn_in_plots_with_the_same_axes() {
     let (a, b) = (position(&first).expect("a name"), position(&second).expect("a name"));
     assert_eq!((&first[..a], first[a + 3]), (&second[..b], "case-3: order 2.00"));
     assert_eq!(second[b], "case-4: order 2.00");
+    // Slopes of reference lines are multiples of a third.
+    let slopes = svg(&copies(1, |_, study| study.judgement.order = Some(interval(1.34, 1.3, 1.4))));
+    assert!(texts(&slopes[0].svg).contains(&"order 4/3"), "{slopes:?}");
     // Curves with equal points share a line, and a name.
     let equal = texts(&svg(&copies(2, |_, _| ()))[0].svg).join("|");
     assert!(equal.contains("|case-{0,1}: order 2.00|"), "{equal}");
@@ -635,6 +689,8 @@ fn maps_have_the_limits_and_the_measured_values() {
     let files: Vec<&str> = figures.iter().map(|figure| figure.file.as_str()).collect();
     let expected = ["odd.svg", "odd.svg", "odd-momentum.svg", "odd-least_j.svg"];
     assert_eq!(files, [&expected[..], &["odd-work-transfers.svg"]].concat());
+    // A limit above the searched range has no colour.
+    assert!(figures[1].pgfplots.contains("\n0 0 7.31e-1\n1 0 nan\n"), "{figures:?}");
     let title = "50 % of a bar";
     for (k, words) in [
         "parameter place|0.25|0.375|limit|0.731|&gt; 4|limit of C",
@@ -766,7 +822,7 @@ First.
 
   observed
   C         place=0.25  place=0.375
-  limit              -          > 4
+  limit         < 0.05          > 4
 
   runs at
   0.9 times

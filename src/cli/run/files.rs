@@ -89,10 +89,14 @@ pub(super) fn write_page(
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let run = page::RunFacts {
         refused,
-        date: DateTime::<Utc>::from(start).format("%Y-%m-%d %H:%M UTC").to_string(),
+        date: date(start),
         machine: format!("{OS}, {ARCH}, {}", report::counted(cores, "core")),
     };
     fs::write(file, page::page(&parts, &run)).map_err(|error| unwritable("--html", file, &error))
+}
+
+fn date(start: SystemTime) -> String {
+    DateTime::<Utc>::from(start).format("%Y-%m-%d %H:%M UTC").to_string()
 }
 
 pub(super) struct Series {
@@ -152,4 +156,16 @@ fn save(path: &Path, file: &SeriesFile) -> io::Result<()> {
 
 fn unwritable(option: &str, path: &Path, error: &impl Display) -> CommandError {
     CommandError::option(option, path.display(), error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::{Duration, UNIX_EPOCH};
+
+    #[test]
+    fn date_has_the_minute_of_the_start() {
+        let start = UNIX_EPOCH + Duration::from_secs(86_400 * 31 + 14 * 3600 + 11 * 60);
+        assert_eq!(date(start), "1970-02-01 14:11 UTC");
+    }
 }

@@ -63,7 +63,7 @@ fn a_change_of_the_problem_shows_what_differs(#[case] values: [&str; 2], #[case]
 }
 
 #[test]
-fn only_levels_that_count_are_compared() {
+fn only_levels_that_count_in_a_run_are_compared() {
     let mut before = case("a", 1.0, 1.0);
     for (level, counts) in [false, true, true, true].into_iter().enumerate() {
         before["levels"][level]["counts"] = json!(counts);
@@ -72,6 +72,13 @@ fn only_levels_that_count_are_compared() {
     assert_eq!(rank(&coarse), None);
     let fine = after(&before, set("/levels/1/judged", json!(1.0)));
     assert_eq!(rank(&fine), Some(Rank::LessAccurate));
+    for (level, counts) in [(0, true), (3, false)] {
+        let one_run = after(&before, |case| {
+            set(&format!("/levels/{level}/counts"), json!(counts))(case);
+            set(&format!("/levels/{level}/judged"), json!(1.0))(case);
+        });
+        assert_eq!(rank(&one_run), Some(Rank::LessAccurate), "level {level}");
+    }
 }
 
 fn run(verdict: &str) -> Value {

@@ -128,6 +128,9 @@ fn failures_and_refused_files_are_marked_above_the_suites() {
     let place = failed.find("<p class=\"bad finding\">1 suite, 2 cases: 2 FAIL.</p>");
     assert!(place.expect("a summary") < failed.find("<nav").expect("the list of suites"));
     assert!(failed.contains("a::firstx</a>: too lowx</li>"));
+    let sources = [SuiteSource { outcome: &outcome("a", "x", &[]), file: "", yaml: "" }];
+    let refused = page(&sources, &RunFacts { refused: 1, ..RunFacts::default() });
+    assert!(refused.contains("<p class=\"bad finding\">1 suite, 2 cases: 2 pass, 0 FAIL. 1 file "));
     let none = page(&[], &RunFacts { refused: 2, ..RunFacts::default() });
     let summary = "<p class=\"bad finding\">0 suites, 0 cases. 2 files could not be used.</p>";
     assert!(none.contains(summary));

@@ -255,6 +255,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn only_a_single_largest_group_is_called_all_other_cases() {
+        let names_of = |values: &str| -> Vec<String> {
+            let names = ["a", "b", "c", "d", "e", "f"].into_iter();
+            shared(names.zip(values.chars().map(String::from))).map(|(_, names)| names).collect()
+        };
+        assert_eq!(names_of("xxxyyy"), [" ({a,b,c})", " ({d,e,f})"]);
+        assert_eq!(names_of("xxxxyy"), [" (all other cases)", " ({e,f})"]);
+        assert_eq!(names_of("xxxxxx"), [""]);
+    }
+
+    #[test]
     fn equal_rows_are_merged() {
         let merged = |rows: Vec<[String; 2]>, by_name: bool| {
             let headings = vec!["case".to_owned(), String::new()];

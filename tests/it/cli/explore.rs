@@ -1,5 +1,6 @@
 //! Suites without expectations: the output of a run, and the expectations that it suggests.
 
+use super::json::document;
 use super::{BAD_INPUT, BAR, Folder, SOUND, assert_contains};
 
 fn open(text: &str) -> &str {
@@ -22,7 +23,7 @@ fn suite_without_expectations_reports_results_and_passes() {
     assert!(found.errors.starts_with(note), "{}", found.errors);
     let checked = folder.call(&["check", "bar.yaml"]);
     assert!(checked.out.ends_with("; no expectation, so it is not a gate\n"), "{}", checked.out);
-    let document = folder.call(&["run", "bar.yaml", "--format", "json"]).json();
+    let document = document(&folder, &["bar.yaml"], SOUND);
     let case = &document["suites"][0]["cases"][0];
     assert!(case["expected"].is_null() && case["passed"] == true, "{case}");
     assert!(case["observed_order"]["value"].is_f64(), "{case}");

@@ -11,7 +11,7 @@ fn list(value: &Value) -> &[Value] {
 }
 
 /// Returns the document of a run. It must have exactly the keys of the schema.
-fn document(folder: &Folder, targets: &[&str], code: i32) -> Value {
+pub(super) fn document(folder: &Folder, targets: &[&str], code: i32) -> Value {
     let run = [&["run", "--format", "json"], targets].concat();
     let document = folder.call(&run).ended(code).json();
     assert_eq!(JsonSchema::new(&report_schema()).refusal(&document), None);

@@ -43,7 +43,9 @@ fn violated_expectation_points_at_its_entry() {
     let github = folder.call(&["run", "bar.yaml", "-q", "--format", "github"]).out;
     let annotation =
         format!("::error file=bar.yaml,line={line},col=5,title=order-too-low::long-bar");
-    assert_contains(&github, &[&annotation]);
+    // The escaped line break precedes the help.
+    let help = "%0Anext: mpm-verify diagnose bar.yaml --case mpm-linear-flip-musl; ";
+    assert_contains(&github, &[&annotation, help]);
     // The output of other formats is for programs, so people read diagnostics on standard error.
     let json = folder.call(&["run", "bar.yaml", "--format", "json"]);
     assert!(json.out.starts_with('{') && json.out.contains("\"order-too-low\""), "{}", json.out);

@@ -1,7 +1,7 @@
 //! Automatic time steps, and the warning about a step that is too long.
 
 use super::{BAR, FAILED, Folder, SOUND, assert_contains};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Creates the bar without its FEM case, with another time step.
 fn bar(dt: &str) -> String {
@@ -109,6 +109,9 @@ fn rounded_step_of_a_short_run_is_reported() {
         12 cells: 7 steps of 8.5714e-4 s, 1.0286 x 8.3333e-4 s, 7 instants  off
     4 levels: 4 with a step that differs from the requested step by more than 1 %
     ");
+    let document = folder.call(&["steps", "bar.yaml", "--format", "json"]).ended(FAILED).json();
+    let level = &document["suites"][0]["levels"][0];
+    assert_eq!((&level["dt"], &level["wanted"]), (&json!(0.003), &json!(0.0025)));
     let errors = folder.call(&["run", "bar.yaml"]).errors;
     let first = "warning: short-bar::mpm-linear-flip-musl, 4 cells: the run takes 2 steps of \
                  3.0000e-3 s, 1.200 times the stated step, because the stated step does not divide \
