@@ -271,3 +271,16 @@ fn verdict(report: &DoctorReport) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heading_of_a_remark_and_a_defect_is_defect() {
+        let kinds = [SolverFinding::remark, SolverFinding::defect];
+        let findings = kinds.map(|new| new("drag", String::new(), "", "")).to_vec();
+        let result = ExaminationResult::Examined { measured: String::new(), findings };
+        assert_eq!(heading(&result), "DEFECT");
+    }
+}

@@ -200,3 +200,23 @@ fn halved_step(whole: &Course, half: &Course) -> Option<SolverFinding> {
         "the time step: use the `dt` of `advance`, which equals the `dt` of the problem",
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::subject::Samples;
+
+    /// Arguments: the number of equal weights, and their sum over the volume of the body.
+    #[test]
+    fn weights_sum_to_the_volume_of_the_body() {
+        let scene = BoxScene::of_cells((2, "linear_elastic"), [0.25; 3], 3.0, 6.0);
+        let mut course = Course::new(&scene.problem().expect("a problem"));
+        let mut is_wrong = |n: usize, sum: f64| {
+            let weight = vec![sum * 9.0 * H * H / n as f64; n];
+            course.states = vec![Samples { weight, ..Samples::default() }];
+            wrong_weights(&course, &scene).is_some()
+        };
+        assert!(!is_wrong(36, 1.02) && is_wrong(36, 1.03) && is_wrong(36, 0.6));
+        assert!(!is_wrong(1, 1.49) && is_wrong(1, 1.51));
+    }
+}

@@ -443,3 +443,23 @@ fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Option<Vec<f64>> {
     }
     Some((0..d * d).map(|k| sigma[(k / d, k % d)]).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In simple shear by g, the Jaumann rate gives `mu sin(g)` and normal stresses of
+    /// `+-mu (1 - cos(g))`, positive along the shear. The plain rate gives `mu g` alone.
+    #[test]
+    fn jaumann_rate_is_a_remark() {
+        let scene = scene((2, "linear_elastic"));
+        let (mu, (sin, cos)) = (scene.lame().1, libm::sincos(0.8));
+        let normal = mu * (1.0 - cos);
+        for (sign, name) in [(1.0, "objective-rate"), (-1.0, "stress-at-finite-strain")] {
+            let column = [sign * normal, mu * sin, mu * sin, -sign * normal];
+            let (law, f) = ([0.0, mu * 0.8, mu * 0.8, 0.0], [1.0, 0.8, 0.0, 1.0]);
+            let finding = of_stress("", &column, &law, &f, &scene);
+            assert_eq!(finding.unwrap_or_else(|_| panic!("it fails")).name, name);
+        }
+    }
+}

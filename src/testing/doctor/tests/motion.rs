@@ -226,17 +226,18 @@ fn errors_at_cells_and_surfaces_have_their_cause() {
         }
     };
     check(0, "translation", near, near_rows);
-    // Columns: change of the positions on faces (v dt), velocity error with stiffness, F_yx. Half
-    // of the particles lie on a face after step 3.
+    // Columns: change of the positions on faces (v dt), velocity error with stiffness, F_yx, stress
+    // over lambda + 2 mu = 0.7/0.52 E. Half of the particles lie on a face after step 3.
     let faces_rows = "
-0    0    0.9e-6 |                           | in 32 steps
-0.04 0    0      | positions-changed         | From step 4 on, particles that lie on a cell face
-0.04 0    0      | positions-changed         | move by up to 0.04000 v dt more or less
-0.06 0    0      | particles-on-faces        |
-0    0    1.1e-6 | light-nodes-left-out      | and the strain reaches 1.100e-6
-0    0.01 0      | (rounding-grows-on-faces) | with stiffness: in 32 steps
+0    0    0.9e-6 0.9e-6 |                           | in 32 steps
+0.04 0    0      0      | positions-changed         | From step 4 on, particles that lie on a cell face
+0.04 0    0      0      | positions-changed         | move by up to 0.04000 v dt more or less
+0.06 0    0      0      | particles-on-faces        |
+0    0    1.1e-6 0      | light-nodes-left-out      | and the strain reaches 1.100e-6
+0    0    0      1.1e-6 | light-nodes-left-out      | and the strain reaches 1.100e-6
+0    0.01 0      0      | (rounding-grows-on-faces) | with stiffness: in 32 steps
 ";
-    let on_faces = |[share, stiff, strain]: [f64; 3]| {
+    let on_faces = |[share, stiff, strain, stress]: [f64; 4]| {
         move |problem: &LevelProblem, label: Vector3<f64>, step: u64| {
             let v = initial_velocity(problem);
             let cells = (label[0] - problem.grid.origin[0]) / H;
@@ -245,7 +246,9 @@ fn errors_at_cells_and_surfaces_have_their_cause() {
             let stiff = if is_soft(problem) { 0.0 } else { stiff * label[0] };
             let mut f = Matrix3::identity();
             f[(1, 0)] = if step > 4 { strain } else { 0.0 };
-            let tensors = Some([Matrix3::zeros(), f]);
+            let modulus = 0.7 / 0.52 * problem.materials[0].parameter("young");
+            let stress = if step > 4 { stress * modulus } else { 0.0 };
+            let tensors = Some([Matrix3::from_diagonal_element(stress), f]);
             PointState { u: (time(problem, step) + off) * v, v: (1.0 + stiff) * v, tensors }
         }
     };

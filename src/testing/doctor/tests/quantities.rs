@@ -289,3 +289,24 @@ fn ends_of_a_periodic_axis_stop_each_other() {
 ";
     check(0, "periodic-ends", motion, rows);
 }
+
+/// A stretch by the ratio of the particle mass to density times volume, which is one in all units.
+/// Column: factor of the displacements of particles with less than 1e-12 kg.
+#[test]
+fn units_have_no_effect() {
+    let stretched = |[light]: [f64; 1]| {
+        move |problem: &LevelProblem, label: Vector3<f64>, _| {
+            let (body, particles) = (&problem.bodies[0], &problem.particles);
+            let mass = problem.materials[0].density * particles.reference_volume[0];
+            let factor = if mass < 1e-12 { light } else { 1.0 };
+            let centre = |i: usize, _| if i < 2 { 0.5 * (body.from[i] + body.to[i]) } else { 0.0 };
+            let u = (label - Vector3::from_fn(centre)) * (factor * particles.mass[0] / mass);
+            PointState { u, ..PointState::default() }
+        }
+    };
+    let rows = "
+1.0  |                  | small lengths 0, small times 0, small masses 0
+1.05 | depends-on-units | with small masses (displacement: 0.05000)
+";
+    check(0, "symmetry", stretched, rows);
+}

@@ -231,3 +231,25 @@ const PLATE_LAW: &str = "`plane` of the problem, which is \"stress\": the stress
                          strains in the plane; the stiffness E/(1 - nu^2) of a plate";
 const PLATE_DIFFERS: LawCause =
     ("plane-stress-differs", "the stress is not that of a plate in plane stress", PLATE_LAW);
+
+#[cfg(test)]
+mod tests {
+    use super::super::finding;
+    use super::*;
+
+    /// Factors of the stress after one step and after many steps, and the name of the finding.
+    #[test]
+    fn path_with_the_wrong_stress_is_reported() {
+        for (factors, name) in
+            [([1.1, 1.0], "j2-depends-on-steps"), ([1.0, 1.1], "j2-not-accumulated")]
+        {
+            let legs = [0, 1].map(|k| {
+                let (path, expected) = (J2.paths[k], vec![3.0, 1.0, 1.0, 2.0]);
+                let stress = expected.iter().map(|stress| factors[k] * stress).collect();
+                Leg { path, scene: path.scene((2, "j2")), stress, expected, bound: 0.01 }
+            });
+            let finding = finding(&legs, &J2).ok().flatten();
+            assert_eq!(finding.map(|finding| finding.name), Some(name));
+        }
+    }
+}
