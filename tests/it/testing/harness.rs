@@ -107,6 +107,19 @@ fn suite_without_an_applicable_case_does_not_pass() {
     assert!(!passes(&tests(&alone), None), "a study of another kind");
 }
 
+/// The solver refuses the first of two cases.
+#[test]
+fn report_with_one_applicable_case_is_compared() {
+    let folder = folder();
+    let two = SWINGING_BAR.replace("until: 0.5", "until: [0.25, 0.5]");
+    folder.write("suites/swinging-bar.yaml", &two);
+    let refusing = solver("refusing", |problem| {
+        if problem.until < 0.5 { Err("a short run".into()) } else { OwnSolver.subject(problem) }
+    });
+    let (_, said) = run(&tests(&folder).judging(refusing), &[]);
+    assert!(said.contains("1 passed; 1 failed; 2 ignored"), "{said}");
+}
+
 #[test]
 fn invalid_files_fail() {
     let empty = Folder::new();
