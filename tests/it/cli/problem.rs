@@ -18,14 +18,15 @@ fn level_is_written_at_its_time_and_in_its_format(
     #[case] t: Option<f64>,
     #[case] format: ProblemFormat,
 ) {
-    let suite = valid_suite(BAR);
+    let text = BAR.replace("ppc: 4}", "ppc: 4, full: 16}");
+    let suite = valid_suite(&text);
     let plan = suite.convergence().expect("a study of an order");
     let level = plan.refine.levels[level];
     let mut problem = level_problem(&suite.name, plan, &plan.cases[0], level).expect("a problem");
     if let Some(t) = t {
         problem.particles = exact_state(plan, &problem.particles, t).expect("a state");
     }
-    let folder = Folder::with("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", text);
     let mut command = folder.command(&[&["problem", "bar.yaml"], arguments].concat());
     let bytes = command.output().expect("the program starts").stdout;
     assert!(bytes == problem.written(format).expect("a file"));

@@ -93,7 +93,7 @@ fn a_misspelt_parameter_among_the_capabilities_is_reported() {
 #[rstest]
 #[case("mean_displacement: {", "mean_velocity: {", "unknown name `mean_velocity`")]
 #[case("{axis: 0}", "{axis: 1}", "the axis is 1")]
-#[case("mean_displacement: {", "position_of: {particle: 16, ", "the index of the particle is 16")]
+#[case("mean_displacement: {", "position_of: {particle: 16, ", "a whole number from 0 to 15")]
 #[case("to: {young: E", "to: {yuong: E", "did you mean `young`?")]
 #[case("to: {young: E", "to: {young: F", "`F` is not a parameter of this suite")]
 #[case("to: {young: E", "to: {young: rho", "does not set the parameter `young`")]

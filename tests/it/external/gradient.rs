@@ -1,6 +1,6 @@
 //! Derivatives of differentiable solvers. A library solver with a known error produces every state.
 
-use crate::common::solver::{NewSubject, prescribed};
+use crate::common::solver::{NewSubject, Solver, prescribed, solver};
 use crate::common::valid_suite;
 use approx::assert_relative_eq;
 use mpm_verify::external::{
@@ -222,6 +222,19 @@ fn a_parameter_without_a_gradient_is_not_applicable() {
     assert_eq!(lacks[2], ["gradients: initial_velocity"]);
 }
 
+/// Derivatives are compared with those of the built-in law in rate form.
+#[test]
+fn small_strain_does_not_replace_the_law_of_a_gradient() {
+    let suite = SUITE.replace("  equation: corotated", "  equation: small_strain");
+    let suite = valid_suite(&suite.replace("corotated", "linear_elastic"));
+    let gradients = ["young", "density", "initial_velocity"].map(ToOwned::to_owned).to_vec();
+    let able = Capabilities::of(&[1], &["small_strain"], &["free", "fixed"], &[]);
+    let able = Some(Capabilities { gradients, ..able });
+    let solver = Solver { able, ..solver("linear", |_| Err("nothing runs here".into())) };
+    let case = Runner::new(&suite).judging(&solver).case(0, &|| ());
+    assert_eq!(case.lacks, ["laws: linear_elastic"]);
+}
+
 #[test]
 fn a_refusal_is_not_applicable_and_a_failure_fails() {
     let with = |error| cases(&Differentiable { error: Some(error), ..Differentiable::sound() });
@@ -300,6 +313,7 @@ impl SolverFactory for Plate {
     }
 
     fn subject(&self, problem: LevelProblem) -> NewSubject {
+        assert_eq!(problem.instants, [problem.steps]);
         Ok(prescribed(problem, |problem, steps, samples| {
             let displacement = [0.5, -3.0 * sum(problem, steps).0];
             samples.displacement = displacement.repeat(problem.particles.len());

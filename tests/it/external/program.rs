@@ -126,7 +126,8 @@ fn finished_levels_are_reused_only_for_the_same_solver() {
     let again = folder.call(&KEPT);
     assert_eq!((again.code, &again.out), (SOUND, &first.out));
     assert_eq!(problems(&folder), levels, "nothing ran again");
-    folder.write("solver.sh", format!("# another version\n{}", folder.read("solver.sh")));
+    // The other program has the same length.
+    folder.write("solver.sh", folder.read("solver.sh").replace("rest", "tail"));
     let other = folder.call(&KEPT);
     assert_eq!((other.code, &other.out), (SOUND, &first.out));
     assert_eq!(problems(&folder), 2 * levels, "another program ran");

@@ -172,6 +172,18 @@ fn problem_does_not_replace_other_files() {
     assert_eq!(folder.files("levels"), ["1.json", "2.json", "README.md", "results"]);
 }
 
+/// The names have the numbers of `problem --level`.
+#[test]
+fn levels_of_a_refined_time_step_are_numbered_from_1() {
+    let suite = BAR.replace("until: 0.05, dt: 1e-3", "until: 0.002");
+    let suite = suite.replace("[4, 6, 8, 12], ppc: 4", "2, ppc: 2, dt: [1e-3, 5e-4]");
+    let folder = Folder::with("bar.yaml", suite);
+    folder.accepted(&["problem", "bar.yaml", "--all", "levels", "--format", "json"]);
+    let level = ["problem", "bar.yaml", "--format", "json", "--level", "1"];
+    assert_eq!(folder.read("levels/level-1.json"), folder.accepted(&level));
+    assert_eq!(folder.files("levels"), ["README.md", "level-1.json", "level-2.json", "results"]);
+}
+
 #[test]
 fn readme_describes_the_problem_its_levels_and_the_results() {
     let suite = super::handover::suite(2)

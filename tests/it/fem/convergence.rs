@@ -1,6 +1,7 @@
 //! Tests of orders in space and time, stability limits and energy conservation of bars.
 
 use super::{bar_at_rest, orders, rms, run, vibrating_bar};
+use crate::common::{built_in_source, cases};
 use mpm_verify::fem::Element::{Linear, Quadratic};
 use mpm_verify::fem::Mass::{Consistent, Lumped};
 use mpm_verify::fem::Sampling::{Inside, Nodes};
@@ -50,6 +51,17 @@ fn the_vibrating_bar_shows_the_formal_order(
         assert!((order - formal).abs() < 0.25, "{observed:?}");
     }
     assert!((observed[3] - formal).abs() < 0.05, "{observed:?}");
+}
+
+/// The bar of the suite is fixed on the left and pulled on the right. The signs of displacement,
+/// velocity and traction change in its mirror image.
+#[test]
+fn mirror_image_of_a_pulled_bar_has_its_orders() {
+    let suite = built_in_source("fem-pulled-bar").text().replace("left: fixed", "right: fixed");
+    let suite = suite.replace("on: right", "on: left").replace("k*X", "k*(L - X)");
+    for case in cases(&suite.replace("[\"", "[\"-")) {
+        assert!(case.passed(), "{}: {}", case.case, case.reason);
+    }
 }
 
 /// Creates a column of ten elements (wave speed 10 m/s) under suddenly applied gravity.

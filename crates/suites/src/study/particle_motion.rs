@@ -141,13 +141,15 @@ mod tests {
         let motion = |x: f64| ParticleMotion {
             dimension: 1,
             grid: Some(([0.0; 2], 1.0)),
-            instants: vec![vec![[0.5, 0.0], [1.5, 0.0]], vec![[x, 0.0], [1.75, 0.0]]],
+            instants: [[0.5, 1.5], [x, 1.75], [x, 1.75]]
+                .map(|at| at.map(|x| [x, 0.0]).into())
+                .into(),
         };
         let svg = motion(1.25).to_svg("a < b").expect("a picture");
-        let fills: Vec<&str> = svg.split("\"fill\" values=\"").skip(1).map(|s| &s[..15]).collect();
-        assert_eq!(fills, ["#0072b2;#d55e00", "#0072b2;#0072b2"]);
+        let fills: Vec<&str> = svg.split("\"fill\" values=\"").skip(1).map(|s| &s[..23]).collect();
+        assert_eq!(fills, ["#0072b2;#d55e00;#0072b2", "#0072b2;#0072b2;#0072b2"]);
         // The extent is 1.25 m wide; the margin is twice the radius of 5 px.
-        let path = |x: f64| format!("\"cx\" values=\"10.00;{x:.2}\"");
+        let path = |x: f64| format!("\"cx\" values=\"10.00;{x:.2};{x:.2}\"");
         assert!(svg.contains(&path(10.0 + 0.75 / 1.25 * 800.0)), "{svg}");
         assert_eq!(svg.matches("<line ").count(), 3, "0, 1 and 2 m\n{svg}");
         assert!(svg.contains("<title>a &lt; b</title>"));

@@ -264,6 +264,7 @@ mod tests {
     #[test]
     fn a_derivative_of_a_linear_function_is_linear() {
         assert_eq!(state(|q| 3.0 * q - 1.0, 3.0), GradientState::Linear);
+        assert_eq!(state(|q| 1.0 - 3.0 * q, -3.0), GradientState::Linear);
         assert_eq!(state(|q| 3.0 * q - 1.0, 6.0), GradientState::Wrong);
         // If all differences are rounding errors, no derivative can be judged.
         assert_eq!(state(|_| 0.0, 0.0), GradientState::AtRounding);

@@ -244,6 +244,13 @@ mod tests {
     #[rstest]
     #[case::silence("exec sleep 99", 0.05, 0, "did not answer within 0.05 s")]
     #[case::nothing_read("exec sleep 99", 0.05, 1_000_000, "did not answer within 0.05 s")]
+    #[case::long_standard_error(
+        "yes progress | head -n 300 >&2; echo broken >&2; exit 3",
+        60.0,
+        0,
+        "ended without an answer (exit status 3); its last output on standard error: progress | \
+         progress | broken"
+    )]
     #[case::a_closed_pipe("exec >&-; exec sleep 99", 60.0, 0, "closed its output but did not end")]
     fn process_without_an_answer_fails(
         #[case] script: &str,

@@ -9,8 +9,10 @@ use super::results::{ResultLevel, read_level};
 use super::solver::{PROTOCOL, problem_message};
 use super::subject::ProgramSubject;
 use crate::external::capabilities::{Capabilities, ProblemNeeds, SMALL_STRAIN};
-use crate::external::{FieldName, FieldPlaces, HandedNumber, LevelProblem};
-use crate::study::level_problem;
+use crate::external::{
+    BodyForceField, FieldName, FieldPlaces, HandedNumber, LevelProblem, protocol_schema,
+};
+use crate::study::{level_problem, needs_of_suite};
 use crate::subject::{Failure, GradientParameter, Precision, Samples, Subject};
 use crate::suite::model::Suite;
 use crate::suite::yaml::Source;
@@ -54,8 +56,12 @@ expect:
     because: masses are constant
 "#;
 
-/// Two bodies in contact, with the run of [`LOADED`].
 fn two() -> LevelProblem {
+    problem(&two_bodies())
+}
+
+/// Returns a suite of two bodies in contact, with the run of [`LOADED`].
+fn two_bodies() -> String {
     const SCENE: &str = r#"  bodies:
     - body: {box: {from: [0, 0], to: [1, 0.5]}}
       material: {hencky: {young: 100, poisson: 0.2, density: 3}}
@@ -71,12 +77,16 @@ fn two() -> LevelProblem {
 "#;
     let (head, _) = LOADED.split_once("parameters:").expect("parameters");
     let (_, run) = LOADED.split_once("run:").expect("a run");
-    problem(&format!("{head}scene:\n  dimension: 2\n{SCENE}run:{run}"))
+    format!("{head}scene:\n  dimension: 2\n{SCENE}run:{run}")
+}
+
+fn load(text: &str) -> Suite {
+    let source = Source::from_text("suite.yaml", text).expect("a text");
+    Suite::load(&source).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn problem(text: &str) -> LevelProblem {
-    let source = Source::from_text("suite.yaml", text).expect("a text");
-    let suite = Suite::load(&source).unwrap_or_else(|error| panic!("{error}"));
+    let suite = load(text);
     let plan = suite.convergence().expect("a study of an order");
     let level = plan.refine.levels[0];
     level_problem(&suite.name, plan, &plan.cases[0], level).expect("a problem")
@@ -165,6 +175,9 @@ fn message_has_the_whole_problem(#[values(false, true)] binary: bool) {
 fn constant_body_force_is_a_value_and_a_missing_one_is_none() {
     let (before, rest) = LOADED.split_once("    - gravity").expect("gravity");
     let (_, after) = rest.split_once("    - damping").expect("damping");
+    let schema: Value = serde_json::from_str(&protocol_schema()).expect("JSON");
+    let kinds = &schema["$defs"]["request"]["oneOf"][1]["allOf"][1]["properties"]["body_force"];
+    let kinds = kinds["enum"].as_array().expect("a list");
     for (loads, kind, constant, values) in [
         ("- gravity: [3.5, -2]", "constant", json!([3.5, -2.0]), [3.5, -2.0]),
         ("- gravity: [0.5, \"t\"]", "asked", Value::Null, [0.5, 1.5]),
@@ -174,6 +187,7 @@ fn constant_body_force_is_a_value_and_a_missing_one_is_none() {
         let (message, _) = parse(problem_message(&problem, false));
         let stated = (&message["body_force"], &message["body_force_value"]);
         assert_eq!(stated, (&json!(kind), &constant));
+        assert!(kinds.contains(&json!(kind)), "the schema has {kinds:?}");
         let found = answer(&problem, 1, &json!({"type": "body_force", "t": 1.5})).expect("values");
         assert_eq!(found.1, values.repeat(32));
     }
@@ -212,6 +226,14 @@ fn each_body_has_its_own_columns_and_material() {
         let s0 = if is_upper { 0.0 } else { -5.0 };
         assert_eq!(particles.initial_stress[4 * p..4 * p + 4], [0.0, 0.0, 0.0, s0]);
     }
+}
+
+#[test]
+fn capability_that_one_body_of_two_needs_is_required() {
+    let needs = needs_of_suite(&load(&two_bodies())).expect("a study of solvers");
+    assert_eq!(needs.laws, ["hencky", "linear_elastic"]);
+    // The lower body is stressed, and the upper one starts deformed.
+    assert!(needs.initial_stress && needs.initial_deformation);
 }
 
 /// Returns the answer to a request and its values, which version 2 sends as bytes.
@@ -605,6 +627,33 @@ fn table_of_results_has_the_states_of_the_particles() {
     let required =
         ["t", "X", "Y", "u_x", "u_y", "v_x", "v_y", "F_xx", "F_xy", "F_yx", "F_yy", "stress_zz"];
     assert_eq!(level.required_columns(&needs), required);
+}
+
+/// The times differ by much less than 0.01 s.
+#[test]
+fn points_of_a_table_are_those_of_the_first_time() {
+    let rows = |t: f64| format!("{t},.25,2.1,.5,{t},0\n{t},-.5,2.5,.75,{t},1\n");
+    let text = "t,X,Y,weight,u_x,u_y\n".to_owned() + &[0.004, 0.008, 0.012].map(rows).concat();
+    let level = ResultLevel { name: "4".to_owned(), problem: problem(LOADED) };
+    let found = read_level("4.csv", &text, &level, &[]).expect("results");
+    let displacement = |state: &State| state.columns["displacement"].count();
+    assert_eq!(found.states.iter().map(displacement).collect::<Vec<_>>(), [4; 3]);
+}
+
+struct NumberedForce;
+
+impl BodyForceField for NumberedForce {
+    fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3] {
+        [body as f64, label[0], t]
+    }
+}
+
+#[test]
+fn force_at_places_is_that_of_each_body() {
+    let force: Arc<dyn BodyForceField> = Arc::new(NumberedForce);
+    let mut values = [[f64::NAN; 3]; 2];
+    force.at_places(&[2, 1], &[&[5.0], &[6.0]])(0.5, &mut values);
+    assert_eq!(values, [[2.0, 5.0, 0.5], [1.0, 6.0, 0.5]]);
 }
 
 /// `sigma = lambda tr(eps) I + 2 mu eps` with E = 70, nu = 0.25: 2 mu = 56 and lambda = 28.

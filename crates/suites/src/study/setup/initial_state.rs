@@ -86,6 +86,20 @@ mod tests {
         InitialStress::new(stated.into())
     }
 
+    /// The gradient of v = (X Y, 3 Y) is (Y, X; 0, 3).
+    #[test]
+    fn stated_velocity_has_its_gradient() {
+        let component = |text: &str| {
+            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()
+        };
+        let velocity = Some(Motion::new(["X*Y", "3*Y"].map(component).into()));
+        let stress = InitialStress::default();
+        let initial = Initial { motion: None, displacement: None, velocity, stress };
+        let StateInput { velocity, grad_rate, .. } = (initial.input().motion)(&[2.0, 5.0]);
+        assert_eq!(velocity, [10.0, 15.0, 0.0]);
+        assert_eq!(grad_rate, [[5.0, 2.0, 0.0], [0.0, 3.0, 0.0], [0.0; 3]]);
+    }
+
     /// The solver and the exact solution must add the same initial stress to the stress of the law.
     #[rstest]
     #[case(MaterialPlan::LinearElastic { young: 100.0, poisson: 0.3 })]
