@@ -41,6 +41,7 @@ fn step_just_above_the_limit_has_a_warning() {
         bar(&format!("dt: {dt}, instants: 1"))
             .replace("until: 0.05", "until: 10")
             .replace("basis: linear", "basis: quadratic_bspline")
+            .replace("scheme: musl", "scheme: usl")
             .replace("ppc: 4", "ppc: 2")
     };
     let folder = Folder::with("bar.yaml", bar("auto"));
