@@ -47,6 +47,8 @@ fn cloud<const D: usize>(rows: &[Row]) -> Particles<D> {
     }
 }
 
+/// A fit through particles close to one line gives large nodal values of both signs. Rounding is
+/// relative to these, not to their sum.
 fn p2g_keeps<const D: usize>(rows: &[Row]) {
     let particles = cloud::<D>(rows);
     for (basis, name) in pairs() {
@@ -56,16 +58,19 @@ fn p2g_keeps<const D: usize>(rows: &[Row]) {
         transfer.start(kernel, &grid, &particles);
         transfer.p2g(kernel, &particles, &mut grid, &[Stage::Mass, Stage::Momentum]);
         let (before, after): (f64, f64) = (particles.mass.iter().sum(), grid.mass.iter().sum());
-        assert_abs_diff_eq!(after, before, epsilon = 1e-14 * before);
+        let of_nodes = grid.mass.iter().map(|mass| mass.abs()).sum();
+        assert_abs_diff_eq!(after, before, epsilon = 1e-14 * before.max(of_nodes));
 
         let each = || particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m);
         let change = grid.velocity.iter().sum::<Vector<D>>() - each().sum::<Vector<D>>();
         let size: f64 = each().map(|momentum| momentum.norm()).sum();
+        let size = size.max(grid.velocity.iter().map(Vector::norm).sum());
         assert_abs_diff_eq!(change.norm(), 0.0, epsilon = 1e-14 * size);
 
         transfer.p2g(kernel, &particles, &mut grid, &[Stage::Force]);
         let size: f64 =
             particles.sigma.iter().zip(&particles.vol).map(|(s, vol)| s.norm() * vol / H).sum();
+        let size = size.max(grid.force.iter().map(Vector::norm).sum());
         let total = grid.force.iter().sum::<Vector<D>>();
         assert_abs_diff_eq!(total.norm(), 0.0, epsilon = 1e-14 * size);
     }
