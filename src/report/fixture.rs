@@ -13,7 +13,13 @@ use crate::verify::{
 use serde_json::json;
 use std::sync::Arc;
 
-/// Returns a number with the digits `case`, `level` and `index`, such as 0.00123.
+/// Returns a text in which each white space is one space.
+pub(super) fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Returns a number with the digits `case`, `level` and `index`: 0.001203 for case 1, level 2 and
+/// index 3.
 pub(super) fn digits(case: u32, level: usize, index: u32) -> f64 {
     f64::from(1000 * case + 100 * level as u32 + index) / 1e6
 }
@@ -134,7 +140,7 @@ pub(super) const FIGURES: [&str; 13] = [
     "displacement",
 ];
 
-/// Returns the measured value number `index` of a run, such as 0.401005 for index 3.
+/// Returns the measured value `index` of run `run`: 0.401005 for run 1 and index 3.
 pub(super) fn figure(run: usize, index: usize) -> f64 {
     digits((100 * (index + 1) + run) as u32, 0, 5)
 }

@@ -1,7 +1,7 @@
 //! The complete output of the writers for an outcome in which no two numbers are equal.
 
 use super::fixture::{
-    FIGURES, convergence, digits, figure, interval, outcome, ranking, timed_suite,
+    FIGURES, convergence, digits, figure, flat, interval, outcome, ranking, timed_suite,
 };
 use super::*;
 use crate::subject::{ColumnSize, Holder};
@@ -99,7 +99,7 @@ fn csv_has_each_value_in_its_row_and_column() {
 }
 
 /// Checks the values at the keys (JSON pointers) of `expected`, in the object at `place`.
-fn has_values(document: &Value, place: &str, expected: &Value) {
+fn assert_values(document: &Value, place: &str, expected: &Value) {
     for (key, expected) in expected.as_object().expect("keys") {
         let value = document.pointer(&format!("{place}/{key}"));
         assert_eq!(value, Some(expected), "{key}");
@@ -133,7 +133,7 @@ fn json_has_each_value_at_its_key() {
             {"axis": "particles", "error": null, "failure": "no room"}]},
         "cases/3/stability/swept": "place", "cases/3/stability/sought": "C",
     });
-    has_values(&document, "/suites/0", &expected);
+    assert_values(&document, "/suites/0", &expected);
     // The function 3 q + 5 q^2 changes by 28 and 12.75, and by the derivative 22 and 11.
     let expected = json!({
         "functional": "mean_displacement", "parameter": "young",
@@ -151,7 +151,7 @@ fn json_has_each_value_at_its_key() {
         "points": [{"parameter": 1.5, "value": 15.75, "gradient": 18.0},
             {"parameter": 2.5, "value": 38.75, "gradient": 28.0}],
     });
-    has_values(&document, "/suites/0/cases/5/gradient", &expected);
+    assert_values(&document, "/suites/0/cases/5/gradient", &expected);
     let expected = json!([
             {"cells": 4.0, "courant": 0.25, "steps": 704, "phase_error": -0.012, "amplitude": 1.0,
                 "predicted_phase_error": -0.0125, "predicted_amplitude": (-0.5_f64).exp(),
@@ -289,13 +289,13 @@ fn ranking_has_each_work_in_its_row_and_column() {
         "methods/1/pareto_front": [0, 1], "methods/1/reached/0/at_most": false,
         "methods/1/reached/1": null,
     });
-    has_values(&document, "/0", &expected);
+    assert_values(&document, "/0", &expected);
     let mut ranking = ranking();
     let exponent = ranking.rows[1].exponent.as_mut().expect("an exponent");
     (exponent.theory, exponent.growth) = (-1.0, (3.0, 2.0));
     assert!(cost(&ranking, "seconds").contains("-1.00  growth of work 3.00, not 2.00\n"));
     let document = json!(json::rankings(std::slice::from_ref(&ranking), "seconds"));
-    has_values(&document, "/0/methods/1/exponent", &json!({ "agrees": false }));
+    assert_values(&document, "/0/methods/1/exponent", &json!({ "agrees": false }));
     // The coarsest level of a method is not asymptotic, and the finest of the other one does not
     // converge: both are outside the window.
     ranking.rows[0].method.samples[0].asymptotic = false;
@@ -346,7 +346,7 @@ fn timed_suite_has_each_time_in_its_row_and_column() {
             "seconds": {"median": 0.001_171, "low": 0.001_111, "high": 0.001_199, "repeats": 8},
             "particle_updates": 11_750, "steps": 1156, "bytes": 188_000, "failure": null},
     });
-    has_values(&document, "/suites/0", &expected);
+    assert_values(&document, "/suites/0", &expected);
 }
 
 /// The 13 rows of 60 characters show 4 and 2 dots each.
@@ -365,10 +365,7 @@ fn plot_marks_each_level_at_its_spacing_and_error() {
         lines[1].starts_with("   8.00e-02 |") && lines[13].starts_with("   5.00e-03 |"),
         "{plot}"
     );
-    assert_eq!(
-        lines[15].split_whitespace().collect::<Vec<_>>().join(" "),
-        "0.2 0.8 cell size h (m)"
-    );
+    assert_eq!(flat(lines[15]), "0.2 0.8 cell size h (m)");
     assert_eq!(lines[16..18], ["  a  mpm-linear: 2.00 [1.90, 2.20]", "  b  mpm-ugimp: failed"]);
     // Errors of another quantity have another unit.
     let quantities = [Quantity::Displacement, Quantity::Stress];
@@ -412,7 +409,7 @@ fn page_has_the_values_of_each_case() {
     assert_eq!(found, [linear, "breaks", "-", "-", "-", "-", "-", "-"]);
 }
 
-fn diagnosed() -> Diagnosis {
+fn sample_diagnosis() -> Diagnosis {
     let judgement = |verdict, order, reason: &str| Judgement {
         verdict,
         order: Some(order),
@@ -453,7 +450,7 @@ fn diagnosed() -> Diagnosis {
 
 #[test]
 fn diagnosis_has_the_values_of_each_run() {
-    let mut found = diagnosed();
+    let mut found = sample_diagnosis();
     assert_eq!(diagnosis(&found), DIAGNOSIS);
     let document = diagnosis_json(&found);
     let run = |change: &str, verdict: &str, order: [f64; 3], error: f64, ratio: f64| {
@@ -469,7 +466,7 @@ fn diagnosis_has_the_values_of_each_run() {
         "runs/1": run("basis: cubic", "converging", [2.01, 1.96, 2.04], 0.001, 0.125),
         "beyond_budget": ["64 cells", "more particles"],
     });
-    has_values(&document, "", &expected);
+    assert_values(&document, "", &expected);
     found.runs.remove(1);
     found.runs[0].ratio = 0.25;
     found.runs[0].error = 0.002;
@@ -531,7 +528,7 @@ fn convergence_figure_has_each_level_at_its_spacing_and_error() {
     let corner = |(x, y, radius): (f64, f64, f64)| {
         format!("<polygon points=\"{:.2},{:.2} ", x - 0.92 * radius, y - 0.92 * radius)
     };
-    for (line, square) in elements(svg, "<polygon").iter().zip(squares) {
+    for (line, square) in elements(svg, "<polygon")[..3].iter().zip(squares) {
         assert!(line.starts_with(&corner(square)), "{line} {}", corner(square));
     }
     // Order 2 from half of the error on the coarsest level to half of the smallest error.
@@ -613,7 +610,7 @@ fn refined_axis_names_the_levels(
     assert!(latex.contains(&format!("    {row}$2.000 \\times 10^{{-2}}$ & $1.11$")), "{latex}");
     assert!(report.contains(&format!("  levels\n{levels}")), "{report}");
     assert!(texts(&svg(&outcome)[0].svg).contains(&label));
-    let words = report.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = flat(&report);
     assert!(words.contains(&format!("order between neighbouring levels {pairs}")), "{report}");
     let case = suite::json::case(&outcome.cases[0]);
     assert_eq!(json!([case["axis"], case["formal_order"]]), keys);
@@ -629,10 +626,10 @@ fn overview_counts_the_cases_of_each_kind() {
         _ => study.judgement.order = Some(interval(1.5 + k as f64, 1.0, 5.0)),
     });
     let text = overview(std::slice::from_ref(&estimates));
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = flat(&text);
     assert!(words.contains("in 2 of 3 cases; 1 of 4 cases have no estimate"), "{text}");
     assert!(glance(&[estimates]).contains("  odd    2.00..4.50  4 pass\n"));
-    let verdicts = copies(9, |k, study| study.judgement.verdict = Verdict::ALL[k]);
+    let verdicts = copies(Verdict::ALL.len(), |k, study| study.judgement.verdict = Verdict::ALL[k]);
     let words = "2.00/floor/unsettled/oscillates/grows/breaks/few levels";
     assert_eq!(matrix::findings(&verdicts)[0], words);
     assert_eq!(matrix::shares(&[&verdicts])[0], (2, 9));
@@ -691,19 +688,13 @@ fn maps_have_the_limits_and_the_measured_values() {
     assert_eq!(files, [&expected[..], &["odd-work-transfers.svg"]].concat());
     // A limit above the searched range has no colour.
     assert!(figures[1].pgfplots.contains("\n0 0 7.31e-1\n1 0 nan\n"), "{figures:?}");
-    let title = "50 % of a bar";
-    for (k, words) in [
-        "parameter place|0.25|0.375|limit|0.731|&gt; 4|limit of C",
-        "parameter load|0.25|0.375|sweep|0.400|0.401|momentum drift",
-        "parameter load|0.25|0.375|sweep|0.600|0.601|min J",
-    ]
-    .iter()
-    .enumerate()
-    {
-        let (rest, quantity) = words.rsplit_once('|').expect("a quantity");
-        let title = if k == 0 { title.to_owned() } else { format!("{title}: {quantity}") };
-        let expected = format!("{title}|{rest}|{quantity}: dark is low, light is high");
-        assert_eq!(texts(&figures[k + 1].svg).join("|"), expected);
+    let scale = "dark is low, light is high";
+    for (figure, expected) in figures[1..4].iter().zip([
+        "50 % of a bar|parameter place|0.25|0.375|limit|0.731|&gt; 4|limit of C",
+        "50 % of a bar: momentum drift|parameter load|0.25|0.375|sweep|0.400|0.401|momentum drift",
+        "50 % of a bar: min J|parameter load|0.25|0.375|sweep|0.600|0.601|min J",
+    ]) {
+        assert_eq!(texts(&figure.svg).join("|"), format!("{expected}: {scale}"));
     }
 }
 

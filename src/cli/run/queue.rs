@@ -33,7 +33,7 @@ struct QueueState {
 }
 
 impl QueueState {
-    /// Whether the next of `count` jobs may start, or a thread may learn that none is left.
+    /// Whether a waiting thread may continue: the next of `count` jobs may start, or none is left.
     fn may_start(&self, count: usize, waits: impl Fn(usize) -> bool) -> bool {
         let is_early = self.running > 0 && self.next < count && waits(self.next);
         !self.is_blocked && !is_early

@@ -1,4 +1,5 @@
 use super::*;
+use crate::report::fixture::flat;
 use rstest::rstest;
 use serde_json::{Value, json};
 
@@ -135,7 +136,7 @@ fn changes_have_the_old_value_the_new_one_and_their_ratio(#[case] axis: &str, #[
         set("/observed_order", json!({"value": 1.75}))(case);
         set("/axis", json!(axis))(case);
     });
-    let page = text(&found).split_whitespace().collect::<Vec<_>>().join(" ");
+    let page = flat(&text(&found));
     let row = format!("bar::a converging 2.00 -> 1.75 2.000e-4 -> 5.000e-4 2.50 x {level} ");
     assert!(page.contains(&row) && page.contains(" 1.50 x Values count"), "{page}");
 }
@@ -315,13 +316,12 @@ fn cheapest_for_a_target(
     #[case] second: [Option<f64>; 2],
     #[case] expected: Option<(bool, &str)>,
 ) {
-    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let old = ranked([Some(1e3), Some(1e5)], [Some(2e3), Some(1e4)]);
     let found = compare(&old, &ranked(first, second), TOLERANCE);
-    let page = words(&text(&found));
+    let page = flat(&text(&found));
     assert_eq!(found.is_worse(), expected.is_some_and(|(worse, _)| worse), "{page}");
     match expected {
-        Some((_, row)) => assert!(page.contains(&words(row)), "{page}"),
+        Some((_, row)) => assert!(page.contains(&flat(row)), "{page}"),
         None => assert!(found.cheapest.is_empty(), "{page}"),
     }
 }

@@ -208,8 +208,9 @@ mod tests {
         );
     }
 
-    /// Fields are 62 px wide and 17 px high, and rows with other first words are 5 px apart. Values
-    /// at a fifth of the range have one of the six shades, and that in the middle a mixture.
+    /// Fields are 62 px wide and 17 px high. There is a gap of 5 px between rows whose names begin
+    /// differently. Values at fifths of the range have one of the six shades; the value in the
+    /// middle has a mixture of two.
     #[test]
     fn each_value_is_in_the_field_of_its_row_and_column() {
         let field = |value: f64| MapField { value: Some(value), text: format!("<{value}") };

@@ -9,12 +9,11 @@ fn unreadable_file_is_refused_by_every_command() {
     let folder = Folder::with("bad.yaml", vec![b'a'; 50_000_000]);
     folder.write("suites/bad.yaml/notes.txt", "");
     for command in ["check", "run", "list", "explain"] {
-        for (file, message) in [
-            ("bad.yaml", "the file is too large: 48829 KiB, at most 64 KiB"),
-            ("suites", "this is a folder, not a suite file"),
-            ("missing.yaml", "there is no such file"),
+        for (file, name, message) in [
+            ("bad.yaml", "bad.yaml", "the file is too large: 48829 KiB, at most 64 KiB"),
+            ("suites", "bad.yaml", "this is a folder, not a suite file"),
+            ("missing.yaml", "missing.yaml", "there is no such file"),
         ] {
-            let name = if file == "suites" { "bad.yaml" } else { file };
             refused(&folder, &[command, file], &[message, name]);
         }
     }

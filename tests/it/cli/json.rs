@@ -20,6 +20,7 @@ pub(super) fn document(folder: &Folder, targets: &[&str], code: i32) -> Value {
 
 #[test]
 fn non_finite_numbers_are_strings() {
+    // The stability study of the second suite is only compared with the schema.
     let document = document(&Folder::new(), &["steffen-bar", "null-space"], SOUND);
     let cases = list(&document["suites"][0]["cases"]);
     let broken = cases.iter().find(|case| case["verdict"] == "failed").expect("a failure");

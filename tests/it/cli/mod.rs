@@ -176,7 +176,7 @@ fn built_in_suites_have_no_errors_or_warnings() {
 }
 
 #[test]
-fn misspelt_name_gets_a_suggestion_and_an_empty_folder_is_refused() {
+fn every_command_refuses_names_and_folders_without_a_suite() {
     let folder = Folder::with("empty/notes.txt", "nothing");
     for command in ["list", "check", "explain", "run", "cost"] {
         let words = ["there is no suite called `odometer`", "did you mean `oedometer`?"];

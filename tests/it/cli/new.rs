@@ -11,7 +11,7 @@ fn new_suite_is_valid_and_has_an_order(#[values("1", "2", "3")] dimension: &str)
     let said = "wrote first.yaml\nnext: mpm-verify check first.yaml\n";
     assert_eq!((made.code, made.out.as_str(), made.errors.as_str()), (SOUND, said, ""));
     folder.accepted(&["check", "--strict", "first.yaml"]);
-    let document = folder.call(&["run", "--format", "json", "first.yaml"]).ended(SOUND).json();
+    let document = super::json::document(&folder, &["first.yaml"], SOUND);
     let case = &document["suites"][0]["cases"][0];
     let order = case["observed_order"]["value"].as_f64().expect("an order");
     assert!((1.9..=2.1).contains(&order), "{order}");

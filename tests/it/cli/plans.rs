@@ -1,5 +1,6 @@
 //! Refinement plans: the judged spacing, the cause of a floor, and the effect of `--full`.
 
+use super::json::document;
 use super::{BAR, FAILED, Folder, SOUND, assert_contains};
 use crate::common::folder::flat;
 use serde_json::Value;
@@ -19,8 +20,8 @@ const TOO_FEW: &str = "  - verdict: too_few_levels\n";
 
 fn case(text: &str, arguments: &[&str], code: i32) -> Value {
     let folder = Folder::with("bar.yaml", text);
-    let run = [&["run", "bar.yaml", "--format", "json"], arguments].concat();
-    folder.call(&run).ended(code).json()["suites"][0]["cases"][0].clone()
+    let targets = [&["bar.yaml"], arguments].concat();
+    document(&folder, &targets, code)["suites"][0]["cases"][0].clone()
 }
 
 fn column(case: &Value, key: &str) -> Vec<f64> {

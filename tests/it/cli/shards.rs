@@ -111,9 +111,9 @@ methods: [{{mpm: {{basis: linear, transfer: flip, scheme: {schemes}}}}}]
 }
 
 /// With 2^D particles per cell of 1, 1/2 and 1/4 m, the bodies have 6, 24 and 48 particles on the
-/// coarsest level, and 2^D times as many on each finer one. The grids of the last two levels have
-/// 13 and 25, 13 x 11 and 25 x 21, and 13 x 11 x 9 and 25 x 21 x 17 nodes. The bar needs 100 12 +
-/// 40 13 bytes, the plate 250 96 + 70 143, and the block 450 384 + 100 1287.
+/// coarsest level, and 2^D times as many on each finer level. The grids of the last two levels have
+/// 13 and 25, 13 x 11 and 25 x 21, and 13 x 11 x 9 and 25 x 21 x 17 nodes. The memory in bytes is
+/// `100 * 12 + 40 * 13` (bar), `250 * 96 + 70 * 143` (plate) and `450 * 384 + 100 * 1287` (block).
 #[rstest]
 #[case::bar(1, [6.0, 12.0, 24.0], 2.5e-7, [1720.0, 2400.0 + 1000.0])]
 #[case::plate(2, [24.0, 96.0, 384.0], 6e-7, [34_010.0, 250.0 * 384.0 + 70.0 * 525.0])]
@@ -141,8 +141,9 @@ fn predicted_costs_by_hand(
     }
 }
 
-/// The cases cost 1 ms and, in milliseconds, 7.776 (block), 2 x 7.2 (plate) and 0.045 (bar). The
-/// study of another kind counts as 500 ms. The next case always goes to the least loaded part.
+/// Each case costs 1 ms for its set-up. Its steps cost 7.776 ms (block), 7.2 ms (each of the two
+/// plate cases) or 0.045 ms (bar). A case of another kind of study counts as 500 ms. The next case
+/// always goes to the shard with the least load.
 #[test]
 fn expensive_cases_are_distributed_first() {
     let suites = [

@@ -57,6 +57,19 @@ fn unnamed_methods_failures_and_points_without_a_position_are_explained() {
     for words in ["Pareto front", "3 others", "failed or not finite", dropped] {
         assert_eq!(svg.matches(words).count(), 1, "{words}");
     }
+    // Only marks that occur have a key, and unnamed series only that of failures.
+    for series in &mut figure.series {
+        series.points.retain(|point| point.mark == Mark::Window);
+    }
+    let svg = figure.to_svg();
+    for (key, count) in [
+        ("in the asymptotic window", 1),
+        ("outside the window", 0),
+        ("particles changed cell", 0),
+        ("failed or not finite", 1),
+    ] {
+        assert_eq!(svg.matches(key).count(), count, "{key}");
+    }
 }
 
 #[test]

@@ -226,8 +226,8 @@ mod tests {
     use crate::verify::convergence::tests::study;
     use crate::verify::judge_plan::tests::{level_run, plan};
     use crate::verify::rerun::RoundingSizes;
-    use crate::verify::rerun::tests::{SIZES, scripted};
-    use crate::verify::{Axis, Conserved, Level, OrderHypothesis, Requirement, UnmetCode, judge};
+    use crate::verify::rerun::tests::{SECOND_ORDER, SIZES, scripted};
+    use crate::verify::{Axis, Conserved, Level, OrderHypothesis, UnmetCode, judge};
     use approx::assert_relative_eq;
     use mpm_subject::Totals;
     use rstest::rstest;
@@ -283,13 +283,7 @@ mod tests {
         #[case] within: usize,
         #[case] verdict: &str,
     ) {
-        let required = Requirement {
-            order: Some(2.0),
-            error_below: None,
-            own_error_below: None,
-            because: String::new(),
-        };
-        let gating = Gating::Required(required);
+        let gating = Gating::Required(SECOND_ORDER);
         let gated = JudgePlan { gating: Some(&gating), ..plan() };
         let found = judge_case(&gated, runs(errors), &scripted(|h, _| h));
         assert_eq!((found.verdict.as_str(), found.exemption), (verdict, None));

@@ -76,8 +76,8 @@ mod tests {
         assert!(torn.half_width() < 1e-2 / 1000.0, "{torn:?}");
     }
 
-    /// By hand for ten parts of 5 s with ln E = -+1: Sxx = 25 82.5, Sxy = -25, rss = 10 - 25/82.5,
-    /// and t(0.975, 8) = 2.306.
+    /// By hand for ten parts of 5 s with ln E = 1 and -1 in turn: `Sxx = 25 * 82.5`, `Sxy = -25`,
+    /// `rss = 10 - 25/82.5`, and t(0.975, 8) = 2.306.
     #[test]
     fn interval_of_a_rate_by_hand() {
         let is_even = |t: f64| ((t / 5.0) as u32).is_multiple_of(2);

@@ -159,7 +159,7 @@ mod tests {
         }
     }
 
-    /// A result is read back by the program that wrote it only.
+    /// A stored result is read only by the program that wrote it.
     #[test]
     fn result_of_another_program_is_not_read() {
         let folder = std::env::temp_dir().join(format!("mpm-verify-cache-{}", std::process::id()));

@@ -100,9 +100,9 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 mod tests {
     use super::*;
 
-    /// Deviations and steps are divided by the largest predicted force, 2e6 or 2e-6 N.
+    /// The largest predicted force is 2e6 or 2e-6 N. A force that is NaN meets no expectation.
     #[test]
-    fn a_force_that_is_no_number_agrees_with_nothing() {
+    fn deviations_and_changes_are_fractions_of_the_largest_predicted_force() {
         let judged = |unit: f64, force: f64, share: f64| {
             let row = |force, predicted| ForceRow {
                 position: 0.5,

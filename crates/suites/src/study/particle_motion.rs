@@ -159,6 +159,7 @@ mod tests {
         assert_eq!(ParticleMotion { dimension: 3, ..motion(1.25) }.to_svg(""), None);
         assert_eq!(ParticleMotion::default().to_svg(""), None);
     }
+
     /// The extent is from (1, 2) to (3, 6) m, and y points up: 200 px/m and a radius of 5 px.
     #[test]
     fn drawing_has_the_axes_and_cells_of_the_plane() {

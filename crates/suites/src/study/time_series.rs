@@ -203,8 +203,8 @@ mod tests {
     use crate::subject::{Failure, RunCounters};
     use crate::vtk::{TensorRank, points};
 
-    /// Three labels of a plane, in bodies of two and one particles or without bodies. The labels
-    /// have the velocities (1, -10), (2, -20) and (3, -30) m/s, and fail in step `last`.
+    /// Three particles in a plane, in two bodies (two particles and one) or without bodies. Their
+    /// velocities are (1, -10), (2, -20) and (3, -30) m/s. Step number `last` fails.
     struct Plane {
         has_bodies: bool,
         t: f64,
@@ -276,7 +276,12 @@ mod tests {
         }
     }
 
-    fn written(has_bodies: bool, level: &str, dt: &[f64], steps: u64) -> Vec<(String, Vec<u8>)> {
+    fn write_series(
+        has_bodies: bool,
+        level: &str,
+        dt: &[f64],
+        steps: u64,
+    ) -> Vec<(String, Vec<u8>)> {
         let subject = Box::new(Plane { has_bodies, t: 0.0, steps: 0, last: 31 });
         let (name, truth, mut files) = (level.to_owned(), Some(&Exact as &dyn Truth), Vec::new());
         let run = ShownRun { name, subject, dt: dt.to_vec(), steps, truth };
@@ -288,7 +293,7 @@ mod tests {
         files
     }
 
-    fn have(file: &[u8], expected: &[(&str, &[f64])]) {
+    fn assert_arrays(file: &[u8], expected: &[(&str, &[f64])]) {
         for (name, expected) in expected {
             assert_eq!(numbers(file, name), *expected, "{name}");
         }
@@ -297,7 +302,7 @@ mod tests {
     /// With steps of 1/4 and 1/2 s the labels have moved for 3/4 s at the second instant.
     #[test]
     fn each_body_has_its_own_particles_grid_and_errors_at_each_instant() {
-        let files = written(true, "dt = 0.25 s", &[0.25, 0.5], 2);
+        let files = write_series(true, "dt = 0.25 s", &[0.25, 0.5], 2);
         let version = "version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"";
         let head = |kind: &str, attributes: &str| {
             let root = format!("<VTKFile type=\"{kind}\" {version}>\n<{kind}{attributes}>\n");
@@ -316,11 +321,14 @@ mod tests {
         assert!(files.iter().map(|(path, _)| path).eq(&paths), "{paths:?}");
         assert_eq!(files[10].1, (pvd + "</Collection>\n</VTKFile>\n").into_bytes());
         let (first, grid) = (&files[6].1, &files[7].1);
-        have(first, &[("position", &[1.75, -5.5, 0.0, 4.5, -10.0, 0.0])]);
-        have(first, &[("u", &[0.75, -7.5, 0.0, 1.5, -15.0, 0.0]), ("mass", &[2.0, 3.0])]);
-        have(first, &[("p", &[-10.0, -20.0])]);
-        have(first, &[("error of displacement", &[0.5625, -6.0, 0.0, 0.9375, -11.25, 0.0])]);
-        have(first, &[("error of velocity", &[0.75, -8.0, 0.0, 1.25, -15.0, 0.0])]);
+        assert_arrays(first, &[("position", &[1.75, -5.5, 0.0, 4.5, -10.0, 0.0])]);
+        assert_arrays(first, &[("u", &[0.75, -7.5, 0.0, 1.5, -15.0, 0.0]), ("mass", &[2.0, 3.0])]);
+        assert_arrays(first, &[("p", &[-10.0, -20.0])]);
+        assert_arrays(
+            first,
+            &[("error of displacement", &[0.5625, -6.0, 0.0, 0.9375, -11.25, 0.0])],
+        );
+        assert_arrays(first, &[("error of velocity", &[0.75, -8.0, 0.0, 1.25, -15.0, 0.0])]);
         let stress = [30.0, 12.0, 0.0, -267.0, -3966.0, 0.0, 0.0, 0.0, 0.0];
         let second = [
             ("position", &[10.25, -18.5, 0.0][..]),
@@ -329,9 +337,9 @@ mod tests {
             ("error of displacement", &[0.75, -19.5, 0.0]),
             ("error of stress", &stress),
         ];
-        have(&files[8].1, &second);
+        assert_arrays(&files[8].1, &second);
         let f: Vec<f64> = TWELVE.chunks(2).flat_map(|f| [f[0], f[1], 0.0]).collect();
-        have(grid, &[("mass", &[21.0, 22.0, 23.0, 24.0, 25.0, 0.75]), ("f", &f)]);
+        assert_arrays(grid, &[("mass", &[21.0, 22.0, 23.0, 24.0, 25.0, 0.75]), ("f", &f)]);
         let extent = "Extent=\"0 2 0 1 0 0\"";
         let place = format!(" Whole{extent} Origin=\"-1.5 0.25 0\" Spacing=\"0.5 0.5 0.5\"");
         // 18 numbers and their length take 152 bytes, or 204 digits in base64.
@@ -346,7 +354,7 @@ mod tests {
 
     #[test]
     fn samples_of_a_failing_run_are_written_at_twenty_instants_up_to_the_failure() {
-        let files = written(false, "12 cells", &[0.1], 40);
+        let files = write_series(false, "12 cells", &[0.1], 40);
         let times = (0..=15).map(|k| 2 * k).chain([31]).map(|k| f64::from(k) * 0.1);
         let line = |(number, t): (usize, f64)| {
             let file = format!("bar.12-cells/particles-{number:04}.vtu");
@@ -356,10 +364,10 @@ mod tests {
         let pvd = std::str::from_utf8(&files[18].1).expect("text");
         assert!(pvd.contains(&format!("<Collection>\n{lines}</Collection>")), "{pvd}");
         let last = &files[16].1;
-        have(last, &[("X", &[1.0, 2.0, 0.0, 3.0, 5.0, 0.0, 8.0, 4.0, 0.0])]);
-        have(last, &[("v", &[1.0, -10.0, 0.0, 2.0, -20.0, 0.0, 3.0, -30.0, 0.0])]);
-        have(last, &[("V0", &[0.5, 1.0, 1.5]), ("sigma33", &[5.0, 15.0, 25.0])]);
-        have(last, &[("T", &[301.0, 302.0, 303.0])]);
+        assert_arrays(last, &[("X", &[1.0, 2.0, 0.0, 3.0, 5.0, 0.0, 8.0, 4.0, 0.0])]);
+        assert_arrays(last, &[("v", &[1.0, -10.0, 0.0, 2.0, -20.0, 0.0, 3.0, -30.0, 0.0])]);
+        assert_arrays(last, &[("V0", &[0.5, 1.0, 1.5]), ("sigma33", &[5.0, 15.0, 25.0])]);
+        assert_arrays(last, &[("T", &[301.0, 302.0, 303.0])]);
         for (name, expected) in [("sigma", [21.0, 22.0, 23.0, 24.0]), ("F", [7.0, 8.0, 9.0, 10.0])]
         {
             let [a, b, c, d] = expected;
@@ -373,7 +381,7 @@ mod tests {
     fn ranks_determine_the_components_in_every_dimension() {
         let space =
             points(3, &[1.0, 2.0, 3.0], &[(TensorRank::Tensor, field("F", 9, &TWELVE[..9]))]);
-        have(&space, &[("position", &[1.0, 2.0, 3.0]), ("F", &TWELVE[..9])]);
+        assert_arrays(&space, &[("position", &[1.0, 2.0, 3.0]), ("F", &TWELVE[..9])]);
         let ranks = [TensorRank::Scalar, TensorRank::Vector, TensorRank::Tensor];
         let line = points(
             1,
@@ -382,8 +390,11 @@ mod tests {
         );
         let extended =
             |x: [f64; 2], zeros: usize| x.map(|x| [vec![x], vec![0.0; zeros]].concat()).concat();
-        have(&line, &[("position", &extended([4.0, 5.0], 2)), ("Scalar", &[6.0, 7.0])]);
-        have(&line, &[("Vector", &extended([6.0, 7.0], 2)), ("Tensor", &extended([6.0, 7.0], 8))]);
+        assert_arrays(&line, &[("position", &extended([4.0, 5.0], 2)), ("Scalar", &[6.0, 7.0])]);
+        assert_arrays(
+            &line,
+            &[("Vector", &extended([6.0, 7.0], 2)), ("Tensor", &extended([6.0, 7.0], 8))],
+        );
         for (name, expected) in [("connectivity", [0, 1]), ("offsets", [1, 2])] {
             assert!(numbers(&line, name).into_iter().map(f64::to_bits).eq(expected), "{name}");
         }

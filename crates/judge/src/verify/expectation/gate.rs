@@ -270,7 +270,8 @@ mod tests {
         assert_eq!(check(Some(2.0), None, &of_order(order, 5)).ok(), met);
     }
 
-    /// For the required order 2 the interval must reach 1.9 and exclude 1.4; for 0.8, 0.7 and 0.35.
+    /// For the required order 2 the interval must reach 1.9 and exclude 1.4. For the required order
+    /// 0.8 it must reach 0.7 and exclude 0.35.
     #[rstest]
     #[case::just_inside(2.0, Verdict::TooLow, (1.41, 1.91), true, false)]
     #[case::below_the_lowest(2.0, Verdict::TooLow, (1.5, 1.89), false, false)]

@@ -225,7 +225,7 @@ mod tests {
     #[case::crossings_not_counted(CaseFindings { crossings: None, ..SEEN }, Some(UnmetCode::CrossingsDiffer))]
     #[case::limit(CaseFindings { measured: Measured::NONE, ..SEEN }, Some(UnmetCode::BoundExceeded))]
     #[case::floor(CaseFindings { floor: Some(FloorCause::Nothing), ..SEEN }, Some(UnmetCode::FloorDiffers))]
-    #[case::floor_not_told(CaseFindings { floor: None, ..SEEN }, Some(UnmetCode::FloorDiffers))]
+    #[case::floor_not_determined(CaseFindings { floor: None, ..SEEN }, Some(UnmetCode::FloorDiffers))]
     fn every_part_must_hold(#[case] found: CaseFindings, #[case] code: Option<UnmetCode>) {
         let unmet = expectation().unmet(&found);
         let codes: Vec<UnmetCode> = unmet.iter().map(|unmet| unmet.code).collect();

@@ -71,8 +71,8 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
-    /// By hand: the trapezia of unequal intervals are 3e-6 and 9e-6, and the function falls by 1e-6
-    /// more in the second one, so the change is 11e-6 with a jump of -1/11.
+    /// The trapezoidal integrals over the two intervals are 3e-6 and 9e-6. The function rises by
+    /// 3e-6 and 8e-6, so its change is 11e-6, with a jump of -1/11 of the change.
     #[test]
     fn integral_and_jump_by_hand() {
         let points = [(1e6, 5e-6, 2e-12), (2.5e6, 8e-6, 2e-12), (4.5e6, 1.6e-5, 7e-12)];

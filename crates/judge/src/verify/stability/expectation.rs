@@ -153,16 +153,16 @@ mod tests {
 
     #[test]
     fn bounds_on_a_limit_in_the_range_are_reported_with_both_values() {
-        let bounds = bounds(Some(3e-6), Some(1e-6), Some((4e-6, 0.25)));
+        let all = bounds(Some(3e-6), Some(1e-6), Some((4e-6, 0.25)));
         assert_eq!(
-            bounds.unmet_by_limit(StabilityLimit::At(2e-6)),
+            all.unmet_by_limit(StabilityLimit::At(2e-6)),
             [
                 "expected the limit 4e-6 within 2.5e-1, got 2e-6 (off by 5.0e-1)",
                 "expected the limit at least 3e-6, got 2e-6",
                 "expected the limit at most 1e-6, got 2e-6",
             ]
         );
-        assert!(self::bounds(Some(2e-6), Some(2e-6), None).unmet("", 2e-6).is_empty());
+        assert!(bounds(Some(2e-6), Some(2e-6), None).unmet("", 2e-6).is_empty());
     }
 
     /// A deviation of 13 % from a small value does not meet a relative bound of 0.1 %.

@@ -280,8 +280,9 @@ mod tests {
         trial(&mut subject, &[1.0], kinetic.len() as u64 - 1, &scales)
     }
 
-    /// Two particles of 2 and 4 m2 in the plane, whose third step fails. The stresses at the start
-    /// and at the end store (2 25 + 4 169) 1e12/(2 1e6) = 3.63e8 J, and four times as much between.
+    /// Two particles of 2 and 4 m2 in the plane; the third step fails. The stresses store
+    /// `(2 * 25 + 4 * 169) * 1e12/(2 * 1e6)` = 3.63e8 J at the start and at the end, and four times
+    /// as much in between.
     struct Plane(usize);
 
     impl Subject for Plane {
@@ -386,7 +387,7 @@ mod tests {
         assert_relative_eq!(watched(&[5.0, 9.0], false).energy, 10.0 / 6.0, max_relative = 1e-14);
     }
 
-    fn limit(limit: StabilityLimit, runs: &[(f64, Stability)]) -> StabilityRow {
+    fn row_with_limit(limit: StabilityLimit, runs: &[(f64, Stability)]) -> StabilityRow {
         let trial = |verdict| Trial { verdict, ..watched(&[3.0, 4.0], false) };
         let confirmed = runs.iter().map(|(share, verdict)| (*share, trial(*verdict))).collect();
         let predicted = Some(Prediction { limit, leaves: None });
@@ -406,8 +407,8 @@ mod tests {
                 .into_iter()
                 .zip(agrees)
         {
-            let unmet =
-                StabilityExpectation::default().unmet(&limit(predicted, &[(share, verdict)]));
+            let unmet = StabilityExpectation::default()
+                .unmet(&row_with_limit(predicted, &[(share, verdict)]));
             let words = verdict.words();
             let text = format!("a run at {share} of the predicted limit is {words} after 1 steps");
             assert_eq!(unmet, if agrees { vec![] } else { vec![text] });
@@ -418,17 +419,17 @@ mod tests {
     fn a_search_is_summarised_by_its_lowest_and_highest_limit() {
         let runs = [(0.98, Stability::Stable), (1.02, Stability::Unstable)];
         let all = [StabilityLimit::At(0.7), StabilityLimit::Above(9.0), StabilityLimit::At(0.3)];
-        let rows: Vec<StabilityRow> = all.map(|at| limit(at, &runs[..1])).into();
+        let rows: Vec<StabilityRow> = all.map(|at| row_with_limit(at, &runs[..1])).into();
         let mut study = StabilityStudy {
             swept: "rho".to_owned(),
             sought: Some("C".to_owned()),
             figures: Vec::new(),
             rows,
         };
-        study.rows[2] = limit(all[2], &runs);
+        study.rows[2] = row_with_limit(all[2], &runs);
         let text = "from 0.3 to 0.7 for 3 values of `rho`; 4 runs at 0.98, 1.02 times the predicted limits";
         assert_eq!((study.reason().as_str(), study.verdict().as_str()), (text, "limit of C"));
-        study.rows = vec![limit(all[1], &[])];
+        study.rows = vec![row_with_limit(all[1], &[])];
         assert_eq!(study.reason(), "none in the range, for 1 value of `rho`");
     }
 
