@@ -1,5 +1,5 @@
-"""Kratos' MPM application: linear functions on a mesh of squares or cubes, explicit in time, or in
-quasi-static load steps (`--scheme static`).
+"""Kratos' MPM application: linear functions on a mesh of squares, triangles or cubes. Explicit in
+time, implicit in time (`--scheme newmark` or `bossak`), or in quasi-static load steps (`static`).
 
 Each particle is created from a separate small element, at its centre. Walls are constrained nodes,
 along any axis.
@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import itertools
+import json
 
 import numpy as np
 from box import Array, Cannot, Message, Problem, aside, common_material, laws, uniform
@@ -19,6 +20,11 @@ with aside():
     import KratosMultiphysics.MPMApplication as Mpm
     from KratosMultiphysics.MPMApplication import python_solvers_wrapper_mpm as wrapper
 
+IMPLICIT = {
+    "static": {"solver_type": "static"},
+    "newmark": {"solver_type": "dynamic", "time_integration_method": "implicit", "scheme_type": "newmark"},
+    "bossak": {"solver_type": "dynamic", "time_integration_method": "implicit", "scheme_type": "bossak"},
+}
 ELEMENTS = {2: "Element2D4N", 3: "Element3D8N"}
 LAWS = {
     (2, "linear_elastic"): "LinearElasticIsotropicPlaneStrain2DLaw",
@@ -28,17 +34,21 @@ LAWS = {
 }
 AXES = "XYZ"
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+TRIANGLES = [[0, 1, 2], [0, 2, 3]]  # of a square
 CORNERS = {2: SQUARE, 3: [(*xy, z) for z in (0, 1) for xy in SQUARE]}
 
 
 class Kratos:
     name = "kratos-mpm"
-    version = Km.KratosGlobals.Kernel.Version().split("-")[0]
+    version = Km.KratosGlobals.Kernel.Version().split("-")[0].replace('"', "")
 
-    def __init__(self, scheme: str, search: float, any_law: bool) -> None:
+    def __init__(self, scheme: str, search: float, any_law: bool, mesh: str, formulation: str) -> None:
         self.scheme, self.search = scheme, search
+        self.mixed = formulation == "mixed"
+        self.triangles = self.mixed or mesh == "triangles"
         self.capabilities = {
-            "dimensions": [2, 3], "laws": laws(["linear_elastic", "neo_hookean"], any_law),
+            "dimensions": [2] if self.triangles else [2, 3],
+            "laws": laws(["neo_hookean"] if self.mixed else ["linear_elastic", "neo_hookean"], any_law),
             "conditions": ["free", "fixed", "roller"], "loads": ["gravity", "body_force"],
             "manufactured": True, "load_steps": scheme == "static", "several_bodies": True}
 
@@ -50,7 +60,6 @@ class Kratos:
         self.solver.AddVariables()
         self.add_grid(model["Background_Grid"])
         self.add_body(model["Initial_MPM_Material"].CreateSubModelPart("body"))
-        self.solver.ImportModelPart()
         self.solver.PrepareModelPart()
         self.solver.AddDofs()
         self.hold(model["Background_Grid"])
@@ -62,41 +71,25 @@ class Kratos:
         self.give(Mpm.MP_VELOCITY, problem.velocity)
 
     def settings(self) -> Km.Parameters:
-        """Parameters of the solver."""
-        if self.scheme == "static":
-            return self.static_settings()
+        """Parameters of the solver. A load step is a unit of time."""
+        existing = {"input_type": "use_input_model_part"}
+        dt = 1.0 if self.scheme == "static" else self.problem.dt
+        common = {"model_part_name": "MPM_Material", "domain_size": self.d, "time_stepping": {"time_step": dt},
+                  "grid_model_import_settings": existing, "model_import_settings": existing,
+                  "element_search_settings": {
+                      "search_algorithm_type": "bin_based", "max_number_of_results": 1000,
+                      "searching_tolerance": self.search, "remove_entities_not_found": True}}
+        if self.scheme in IMPLICIT:
+            return Km.Parameters(json.dumps(common | IMPLICIT[self.scheme] | {
+                "analysis_type": "non_linear", "convergence_criterion": "residual_criterion",
+                "residual_relative_tolerance": 1e-12, "residual_absolute_tolerance": 1e-12,
+                "max_iteration": 50, "pressure_dofs": self.mixed,
+                "linear_solver_settings": {"solver_type": "skyline_lu_factorization"}}))
         central = self.scheme == "central_difference"
-        settings = Km.Parameters("""{"solver_type": "dynamic", "time_integration_method": "explicit",
-            "analysis_type": "linear", "model_part_name": "MPM_Material",
-            "grid_model_import_settings": {"input_type": "use_input_model_part"},
-            "model_import_settings": {"input_type": "use_input_model_part"},
-            "time_stepping": {"time_step": 0.0},
-            "element_search_settings": {"search_algorithm_type": "bin_based",
-                "max_number_of_results": 1000, "searching_tolerance": 0.0,
-                "remove_entities_not_found": true}}""")
-        settings.AddInt("domain_size", self.d)
-        settings["time_stepping"]["time_step"].SetDouble(self.problem.dt)
-        settings["element_search_settings"]["searching_tolerance"].SetDouble(self.search)
-        settings.AddString("scheme_type", "central_difference" if central else "forward_euler")
-        settings.AddString("stress_update", "usf" if central else self.scheme)
-        return settings
-
-    def static_settings(self) -> Km.Parameters:
-        """Parameters of Newton's method with a direct solver. A load step is a unit of time."""
-        settings = Km.Parameters("""{"solver_type": "static", "analysis_type": "non_linear",
-            "model_part_name": "MPM_Material",
-            "grid_model_import_settings": {"input_type": "use_input_model_part"},
-            "model_import_settings": {"input_type": "use_input_model_part"},
-            "time_stepping": {"time_step": 1.0}, "convergence_criterion": "residual_criterion",
-            "residual_relative_tolerance": 1e-12, "residual_absolute_tolerance": 1e-12,
-            "max_iteration": 50,
-            "linear_solver_settings": {"solver_type": "skyline_lu_factorization"},
-            "element_search_settings": {"search_algorithm_type": "bin_based",
-                "max_number_of_results": 1000, "searching_tolerance": 1e-5,
-                "remove_entities_not_found": true}}""")
-        settings.AddInt("domain_size", self.d)
-        settings["element_search_settings"]["searching_tolerance"].SetDouble(self.search)
-        return settings
+        return Km.Parameters(json.dumps(common | {
+            "solver_type": "dynamic", "time_integration_method": "explicit", "analysis_type": "linear",
+            "scheme_type": "central_difference" if central else "forward_euler",
+            "stress_update": "usf" if central else self.scheme}))
 
     def add_grid(self, part: Km.ModelPart) -> None:
         problem, spare = self.problem, 1
@@ -109,12 +102,17 @@ class Kratos:
         properties = part.CreateNewProperties(0)
         for k, cell in enumerate(itertools.product(*map(range, counts))):
             nodes = [number[tuple(np.add(cell, corner))] for corner in CORNERS[self.d]]
-            part.CreateNewElement(ELEMENTS[self.d], k + 1, nodes, properties)
+            if self.triangles:
+                for t, triangle in enumerate(TRIANGLES):
+                    part.CreateNewElement("Element2D3N", 2 * k + t + 1, [nodes[c] for c in triangle], properties)
+            else:
+                part.CreateNewElement(ELEMENTS[self.d], k + 1, nodes, properties)
 
     def add_body(self, part: Km.ModelPart) -> None:
         problem, material = self.problem, common_material(self.problem)
         properties = part.CreateNewProperties(1)
         law = LAWS.get((self.d, material["law"]), LAWS[self.d, "neo_hookean"])
+        law = law.replace("NeoHookeanPlaneStrain", "NeoHookeanPlaneStrainUP") if self.mixed else law
         properties.SetValue(Km.CONSTITUTIVE_LAW, Km.KratosGlobals.GetConstitutiveLaw(law).Clone())
         properties.SetValue(Km.YOUNG_MODULUS, material["parameters"]["young"])
         properties.SetValue(Km.POISSON_RATIO, material["parameters"]["poisson"])
@@ -179,9 +177,12 @@ class Kratos:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
-    schemes = ["usf", "usl", "musl", "central_difference", "static"]
+    schemes = ["usf", "usl", "musl", "central_difference", *IMPLICIT]
     parser.add_argument("--scheme", choices=schemes, default="usl")
     parser.add_argument("--search", type=float, default=1e-5, help="how far beyond the faces of a "
                         "cell a particle still counts as inside; Kratos' default is 1e-5")
+    parser.add_argument("--mesh", choices=["squares", "triangles"], default="squares", help="in two dimensions")
+    parser.add_argument("--formulation", choices=["displacement", "mixed"], default="displacement",
+                        help="mixed: displacement and pressure, on triangles, with an implicit scheme")
     parser.add_argument("--any-law", action="store_true", help="where nothing deforms")
     serve(Kratos(**vars(parser.parse_args())))

@@ -32,10 +32,11 @@ class Mpm99:
     name = "taichi-mpm99"
     version = ".".join(map(str, ti.__version__))
 
-    def __init__(self, precision: str, any_law: bool, derivatives: str | None) -> None:
+    def __init__(self, precision: str, any_law: bool, derivatives: str | None, gravity: str) -> None:
         self.bits, self.precision, self.derivatives = precision, PRECISION[precision], derivatives
         self.capabilities = {"dimensions": [2], "laws": laws(["corotated"], any_law),
-                             "conditions": ["free"], "loads": ["gravity"], "several_bodies": True}
+                             "conditions": ["free"], "loads": ["gravity"] if gravity == "on" else [],
+                             "several_bodies": True}
         if derivatives:
             self.capabilities["gradients"] = ["young", "density", "initial_velocity"]
 
@@ -158,5 +159,7 @@ if __name__ == "__main__":
     parser.add_argument("--precision", choices=["f32", "f64"], default="f32")
     parser.add_argument("--derivatives", choices=["tape", "checked", "forward"],
                         help="by Taichi's automatic differentiation")
+    parser.add_argument("--gravity", choices=["on", "off"], default="on", help="off: problems without "
+                        "gravity only, for `doctor`, whose gravity does not act downwards")
     parser.add_argument("--any-law", action="store_true", help="where nothing deforms")
     serve(Mpm99(**vars(parser.parse_args())))
