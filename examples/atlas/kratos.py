@@ -155,14 +155,15 @@ class Kratos:
 
     def advance(self, steps: int, dt: float, time: float) -> None:
         has_force = self.problem.message["body_force"] != "none"
+        start = [self.solver.InitializeSolutionStep, self.solver.Predict]
+        if "_SearchElement" in self.solver.Predict.__code__.co_names:  # releases from 10.4.2 on predict first
+            start.reverse()
         for step in range(steps):
             if has_force:
                 self.give(Mpm.MP_VOLUME_ACCELERATION, self.load(time + step * dt))
             self.time = self.solver.AdvanceInTime(self.time)
-            self.solver.InitializeSolutionStep()
-            self.solver.Predict()
-            self.solver.SolveSolutionStep()
-            self.solver.FinalizeSolutionStep()
+            for part in (*start, self.solver.SolveSolutionStep, self.solver.FinalizeSolutionStep):
+                part()
 
     def load(self, time: float) -> Array:
         """Body force per mass: at a time, or its share in the next load step."""
