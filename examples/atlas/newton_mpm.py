@@ -41,7 +41,8 @@ class Newton:
         self.problem = problem
         volume, mass = uniform("volumes", problem.volume), uniform("masses", problem.mass)
         builder = newton.ModelBuilder()
-        SolverImplicitMPM.register_custom_attributes(builder)
+        if hasattr(SolverImplicitMPM, "register_custom_attributes"):
+            SolverImplicitMPM.register_custom_attributes(builder)
         side = volume ** (1 / problem.dimension)
         position, velocity = self.layers(problem.position, side), self.layers(problem.velocity, 0.0)
         n, across = len(position), side if self.friction else 1.0
@@ -58,17 +59,27 @@ class Newton:
                                         width=0.0, length=0.0, cfg=rough)
         self.model = model = builder.finalize(device="cpu")
         self.pull(0.0)
-        model.mpm.young_modulus.fill_(parameters["young"])
-        model.mpm.poisson_ratio.fill_(parameters["poisson"])
-        model.mpm.tensile_yield_ratio.fill_(1.0)
-        model.mpm.yield_pressure.fill_(1e15)
-        model.mpm.yield_stress.fill_(1e15)
-        config = SolverImplicitMPM.Config(
-            voxel_size=problem.h, air_drag=self.drag, tolerance=self.tolerance, grid_type="dense",
-            grid_padding=2, solver="gauss-seidel" if self.friction else "cg",
-            carry_residual_strain="unconverged", **self.options)
-        self.solver = SolverImplicitMPM(model, config=config)
+        material = {"young_modulus": parameters["young"], "poisson_ratio": parameters["poisson"],
+                    "tensile_yield_ratio": 1.0, "yield_pressure": 1e15, "yield_stress": 1e15}
+        for name, value in material.items():
+            if hasattr(model, "mpm"):  # otherwise the configuration has them
+                getattr(model.mpm, name).fill_(value)
+        self.solver = SolverImplicitMPM(model, self.config(problem.h, material))
         self.states = [model.state(), model.state()]
+
+    def config(self, h: float, material: dict[str, float]) -> object:
+        """The options that this release has. Before 1.1, velocities are linear and conjugate gradients are
+        missing."""
+        config = (getattr(SolverImplicitMPM, "Config", None) or SolverImplicitMPM.Options)()
+        options = {"voxel_size": h, "air_drag": self.drag, "tolerance": self.tolerance, "grid_type": "dense",
+                   "grid_padding": 2, "solver": "gauss-seidel" if self.friction else "cg",
+                   "carry_residual_strain": "unconverged", **self.options, **material}
+        if not hasattr(config, "velocity_basis"):
+            options |= {"solver": "gauss-seidel", "strain_basis": "P0"}
+        for name, value in options.items():
+            if hasattr(config, name):
+                setattr(config, name, value)
+        return config
 
     def layers(self, vectors: Array, side: float) -> Array:
         """Vectors in space; those of a plane body are repeated in two layers, `side` apart."""
@@ -93,10 +104,11 @@ class Newton:
 
     def state(self) -> Message:
         state, (n, d) = self.states[0], self.problem.position.shape
-        x, v, stress = (array.numpy().astype(float)[:n, :d] for array in
-                        (state.particle_q, state.particle_qd, state.mpm.particle_stress))
-        return {"displacement": x - self.problem.reference_position, "velocity": v,
-                "stress": stress[:, :, :d]}
+        x, v = (array.numpy().astype(float)[:n, :d] for array in (state.particle_q, state.particle_qd))
+        answer = {"displacement": x - self.problem.reference_position, "velocity": v}
+        if hasattr(state, "mpm") and hasattr(state.mpm, "particle_stress"):  # positive in compression
+            answer["stress"] = -state.mpm.particle_stress.numpy().astype(float)[:n, :d, :d]
+        return answer
 
 
 def vectors(values: Array) -> list[tuple[float, ...]]:

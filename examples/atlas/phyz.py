@@ -22,10 +22,11 @@ class Phyz:
     name = "phyz-particle"
     version = "0.1.0"
 
-    def __init__(self, program: str, flip: float, stiffness: float, any_law: bool) -> None:
+    def __init__(self, program: str, flip: float, stiffness: float, any_law: bool, gravity: str) -> None:
         self.program, self.flip, self.stiffness = program, flip, stiffness
         self.capabilities = {"dimensions": [3], "laws": laws(["neo_hookean"], any_law),
-                             "conditions": ["free"], "loads": ["gravity"], "several_bodies": True}
+                             "conditions": ["free"], "several_bodies": True,
+                             "loads": ["gravity"] if gravity == "on" else []}
 
     def setup(self, problem: Problem) -> None:
         self.box = box = Box(problem, PAD, self.second(problem))
@@ -65,4 +66,5 @@ if __name__ == "__main__":
     parser.add_argument("--flip", type=float, default=0.95, help="share of FLIP, 0.95 unless said")
     parser.add_argument("--stiffness", type=float, default=1, help="share of that of the problem")
     parser.add_argument("--any-law", action="store_true", help="where nothing deforms")
+    parser.add_argument("--gravity", choices=["on", "off"], default="on", help="`off` for problems without any")
     serve(Phyz(**vars(parser.parse_args())))

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
 
 PLANE = ["translating-block", "falling-block", "free-bar-pulse", "free-bar-pulse-small",
          "moving-bar-pulse", "square-between-rollers", "mms-axis-aligned-2d"]
@@ -80,6 +83,16 @@ def is_rigid(suite: str) -> bool:
     return suite.startswith(("translating-block", "falling-block"))
 
 
+def packages() -> dict[str, dict[str, str]]:
+    """The packages of each release of each code, oldest first."""
+    found: dict[str, dict[str, str]] = {}
+    for line in (HERE / "releases.txt").read_text().splitlines():
+        if not line.startswith("#"):
+            code, release, wanted = line.split(maxsplit=2)
+            found.setdefault(code, {})[release] = wanted
+    return found
+
+
 @dataclass
 class Run:
     """One code with some settings on one suite, whose text is edited by `changes`."""
@@ -95,8 +108,8 @@ class Code:
     """A public code: variants that run on all suites of its dimensions, and further runs that isolate a
     cause, each with its suites; some edit the text of these."""
 
-    name: str  # of the adapter, of the requirements and of a Cargo project
-    title: str
+    name: str  # of the adapter, in releases.txt, and of a Cargo project
+    label: str
     suites: list[str]
     variants: dict[str, list[str]]
     further: dict[str, tuple[list[str], list[str]]] = field(default_factory=dict)
@@ -106,6 +119,21 @@ class Code:
     takes_any_law: bool = True  # option `--any-law` for suites in which nothing deforms
     # Runs of gradient suites: the settings of each, and its suites.
     gradients: dict[str, tuple[list[str], list[str]]] = field(default_factory=dict)
+    # Small runs of all releases: the suites (a key of PANELS), further modes of the newest release, and
+    # the basis functions.
+    panel: str = ""
+    modes: dict[str, list[str]] = field(default_factory=dict)
+    basis: str = "quadratic"
+    examined: list[str] = field(default_factory=list)  # options for `doctor`
+    about: str = ""  # dimensions and functions
+    reports: dict[str, str] = field(default_factory=dict)  # texts in reports/, by the finding
+    implicit: bool = False
+
+    @property
+    def title(self) -> str:
+        """The label with the newest release."""
+        newest = [*packages().get(self.name, {"here": ""})][-1]
+        return self.label if newest == "here" else f"{self.label} {newest}"
 
     def runs(self) -> list[Run]:
         asked = [(suite, variant, arguments) for variant, arguments in self.variants.items()
@@ -129,7 +157,7 @@ OFF_FACES = {"grid: {from: [0, 0.375, 0.375], to: [1, 0.625, 0.625]}":
 DT_AS_H = {"dt: 1e-3": 'dt: "0.2*h/sqrt(E/rho)"'}
 
 CODES = [
-    Code("kratos", "Kratos MPM 10.4.4", SUITES, {"USL": ["--scheme", "usl"]}, {
+    Code("kratos", "Kratos MPM", SUITES, {"USL": ["--scheme", "usl"]}, {
         "central difference": (["--scheme", "central_difference"],
                                ["falling-block", "free-bar-pulse-small", "square-between-rollers"]),
         "MUSL": (["--scheme", "musl"], ["free-bar-pulse-small", "mms-axis-aligned-2d",
@@ -137,42 +165,49 @@ CODES = [
         "off faces": (["--scheme", "usl"], ["free-bar-pulse-small-3d",
                                             "moving-bar-pulse-small-3d"]),
         "MUSL, off faces": (["--scheme", "musl"], ["free-bar-pulse-small-3d"]),
-    }, {"off faces": OFF_FACES, "MUSL, off faces": OFF_FACES}),
-    Code("mpm99", "taichi mpm99 1.7.4", PLANE + FREE_2D,
-         {"f32": ["--precision", "f32"], "f64": ["--precision", "f64"]}, gradients={
+    }, {"off faces": OFF_FACES, "MUSL, off faces": OFF_FACES}, panel="plane", basis="linear",
+        about="2-D, 3-D; linear; walls",
+        modes={"MUSL": ["--scheme", "musl"], "central difference": ["--scheme", "central_difference"],
+               "triangles": ["--mesh", "triangles"], "Newmark": ["--scheme", "newmark"],
+               "Bossak": ["--scheme", "bossak"],
+               "mixed u-p, Newmark": ["--scheme", "newmark", "--formulation", "mixed"]}),
+    Code("mpm99", "taichi mpm99", PLANE + FREE_2D,
+         {"f32": ["--precision", "f32"], "f64": ["--precision", "f64"]}, panel="plane", about="2-D; quadratic; no walls", examined=["--gravity", "off"], gradients={
              f"f64, {title}": (["--precision", "f64", "--derivatives", option],
                                ["gradient-free-bar-pulse"])
              for option, title in [("tape", "tape"), ("checked", "tape with checks"),
                                    ("forward", "forward mode")]}),
-    Code("torch_mpm", "mpm-pytorch 0.1.1", SPACE + FREE_3D, {"f32": []}, {
+    Code("torch_mpm", "mpm-pytorch", SPACE + FREE_3D, {"f32": []}, {
         "f64": (["--precision", "f64"], ["translating-block-3d", "free-bar-pulse-hencky-3d",
                                          "moving-bar-pulse-3d", "moving-bar-pulse-hencky-3d",
                                          "free-bar-pulse-small-3d", "moving-bar-pulse-small-3d",
                                          *FREE_3D]),
-    }, gradients={
+    }, panel="space", about="3-D; quadratic; no walls", modes={"f64": ["--precision", "f64"]}, gradients={
         "f32": ([], ["gradient-free-bar-pulse-3d"]),
         "f64": (["--precision", "f64"], ["gradient-free-bar-pulse-3d"]),
         "f64, bounded adjoint": (["--precision", "f64", "--svd", "bounded"],
                                  ["gradient-free-bar-pulse-3d"]),
     }),
-    Code("newton_mpm", "newton 1.8.0", FREE_3D + SPACE, {"f32": []}, {
+    Code("newton_mpm", "newton", FREE_3D + SPACE, {"f32": []}, {
         "two substeps": (["--substeps", "2"], ["free-bar-pulse-hencky-3d"]),
         "dt as h^2": ([], ["free-bar-pulse-hencky-3d"]),
-    }, {"dt as h^2": {'dt: "0.2*h/c"': 'dt: "6.4*h^2/c"'}}),
-    Code("phyz", "phyz-particle 0.1.0", SPACE + FREE_3D, {"FLIP 0.95": []}, {
+    }, {"dt as h^2": {'dt: "0.2*h/c"': 'dt: "6.4*h^2/c"'}}, panel="space", about="3-D; quadratic, friction walls", implicit=True, modes={
+        "velocities Q1, f32": ["--velocity-basis", "Q1"], "velocities B3, f32": ["--velocity-basis", "B3"],
+        "GIMP, f32": ["--integration-scheme", "gimp"], "PIC transfer, f32": ["--transfer-scheme", "pic"]}),
+    Code("phyz", "phyz-particle", SPACE + FREE_3D, {"FLIP 0.95": []}, {
         "FLIP 1": (["--flip", "1"], ["translating-block-3d", "free-bar-pulse-small-3d",
                                      "lame-block"]),
         "FLIP 1, no stiffness": (["--flip", "1", "--stiffness", "0"],
                                  ["translating-block-3d", "falling-block-3d"]),
-    }, crate="atlas-phyz"),
-    Code("scikit_fem", "scikit-fem 12.0.2", LAGRANGIAN,
+    }, crate="atlas-phyz", panel="space", about="3-D; cubic; no walls", examined=["--gravity", "off"]),
+    Code("scikit_fem", "scikit-fem", LAGRANGIAN,
          {"linear": [], "quadratic": ["--degree", "2"]}, {
              "quadrature points": (["--points", "quadrature"],
                                    ["vibrating-bar", "vibrating-bar-small-amplitude",
                                     "mms-fixed-bar-small", "mms-axis-aligned-3d"]),
              "dt as h": ([], ["vibrating-bar-small-amplitude"]),
          }, {"dt as h": DT_AS_H}, takes_any_law=False),
-    Code("felupe_fem", "felupe 11.3.0", LAGRANGIAN,
+    Code("felupe_fem", "felupe", LAGRANGIAN,
          {"linear": [], "quadratic": ["--degree", "2"]}, takes_any_law=False),
     Code("sph", "SPH of this repository", LAGRANGIAN, {"radius 1.6": []}, {
         "radius 2.6": (["--radius", "2.6"], ["free-bar-pulse-small", "square-between-rollers",

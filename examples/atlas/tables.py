@@ -1,20 +1,19 @@
-"""The tables of docs/atlas.md, from results.csv."""
+"""The tables of docs/atlas.md and docs/atlas-newest.md, from results.csv."""
 
 from __future__ import annotations
 
 import csv
-from pathlib import Path
 
-from plan import (CODES, EXACT, FREE_2D, FREE_3D, GAPS, LAGRANGIAN, PLANE, SPACE, own_cases)
+from plan import (CODES, EXACT, FREE_2D, FREE_3D, GAPS, HERE, LAGRANGIAN, PLANE, SPACE, own_cases)
+from releases import PANELS, changes, columns, summary
 
-HERE = Path(__file__).resolve().parent
-PAGE = HERE.parent.parent / "docs" / "atlas.md"
+DOCS = HERE.parent.parent / "docs"
 RESULTS = HERE / "results.csv"
 
-# The columns of results.csv, one row for each case. `cells`, `failed` (cells of the levels that fail), `errors` and
+# The columns of results.csv, one row for each case. `release` is empty for full runs of the newest release. `cells`, `failed` (cells of the levels that fail), `errors` and
 # `momentum` (relative drift) have one entry for each level. The columns from `value_difference` to `sweep` are checks
 # of a derivative.
-COLUMNS = ["code", "variant", "suite", "case", "derivative_by", "verdict", "order", "order_low", "order_high", "cells",
+COLUMNS = ["code", "release", "variant", "suite", "case", "derivative_by", "verdict", "order", "order_low", "order_high", "cells",
            "failed", "errors", "momentum", "lacks", "value_difference", "taylor_orders", "derivative_error", "sweep",
            "seconds", "reason"]
 
@@ -104,6 +103,29 @@ def gaps(reports: dict[str, list[dict]]) -> str:
                   for key, row in sorted(rows.items())])
 
 
+def panel(name: str, rows: list[dict[str, str]]) -> str:
+    """The small runs of each release: a row for each column of results, a cell for each suite."""
+    lines = []
+    for column in columns():
+        mine = [row for row in rows if column.owns(row) and row["suite"] != "doctor"]
+        if mine and column.code.panel == name:
+            runs = {suite: [row for row in mine if row["suite"] == suite] for suite in PANELS[name]}
+            cells = [contact(some) if suite in GAPS else "; ".join(map(cell, some)).replace("too few levels;", "error")
+                     for suite, some in runs.items()]
+            lines.append([f"{column.code.label} {column.release}, {column.mode}", *cells])
+    return table(["code and release", *(f"`{suite}`" for suite in PANELS[name])], lines)
+
+
+def contact(runs: list[dict[str, str]]) -> str:
+    """The distances (cells) between which two bodies begin to interact."""
+    ends = GAPS[runs[0]["suite"]] if runs else []
+    apart = [3 - end for run, end in zip(runs, ends) if float(run["errors"] or "nan") < 1e-3]
+    near = [3 - end for run, end in zip(runs, ends) if not float(run["errors"] or "nan") < 1e-3]
+    below = f"below {min(apart):.3g}" if apart else ""
+    above = f"above {max(near):.3g}" if near else ""
+    return " and ".join(filter(None, [above, below])) + " cells"
+
+
 def start(case: str) -> str:
     return "half a step back: " if case.endswith("half-step-back") and "usl" in case else ""
 
@@ -151,16 +173,19 @@ def write(rows: list[dict[str, str]]) -> None:
     """Puts the tables between their markers."""
     reports: dict[str, list[dict]] = {"own": []}
     of_gradients: dict[str, list[dict]] = {}
-    for row in rows:
+    for row in [row for row in rows if not row["release"]]:
         (of_gradients if row["derivative_by"] else reports).setdefault(row["code"], []).append(row)
-    page = PAGE.read_text()
-    for name, text in [("plane", matrix(PLANE, reports)), ("space", matrix(SPACE, reports)),
-                       ("free-2d", matrix(FREE_2D[:-1], reports)),
-                       ("free-3d", matrix(FREE_3D[:-1], reports)), ("gaps", gaps(reports)),
-                       ("lagrangian", matrix(LAGRANGIAN, reports)),
-                       ("exact", matrix(EXACT, reports)), ("further", further(reports)),
-                       ("gradients", gradients(of_gradients))]:
-        begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
-        head, rest = page.split(begin)
-        page = head + begin + text + "\n" + end + rest.split(end)[1]
-    PAGE.write_text(page)
+    releases = {"releases": summary(rows), "changes": changes(rows),
+                "panel-2d": panel("plane", rows), "panel-3d": panel("space", rows)}
+    newest = {"plane": matrix(PLANE, reports), "space": matrix(SPACE, reports),
+              "free-2d": matrix(FREE_2D[:-1], reports), "free-3d": matrix(FREE_3D[:-1], reports),
+              "gaps": gaps(reports), "lagrangian": matrix(LAGRANGIAN, reports),
+              "exact": matrix(EXACT, reports), "further": further(reports),
+              "gradients": gradients(of_gradients)}
+    for name, texts in {"atlas.md": releases, "atlas-newest.md": newest}.items():
+        page = (DOCS / name).read_text()
+        for table, text in texts.items():
+            begin, end = f"<!-- {table} -->\n", f"<!-- end of {table} -->"
+            head, rest = page.split(begin)
+            page = head + begin + text + "\n" + end + rest.split(end)[1]
+        (DOCS / name).write_text(page)
