@@ -1,12 +1,14 @@
 """Newton's implicit MPM: three dimensions, Hencky's law, in single precision.
 
-With `--friction` it runs plane bodies with walls. The body is two layers of particles, with free
-faces in front and behind. Without lateral strain (Poisson's ratio 0) its motion is plane.
+It works with newton 0.1.3 to 1.8.0. With `--friction` it runs plane bodies with walls. The body is two
+layers of particles, with free faces in front and behind. Without lateral strain (Poisson's ratio 0) its
+motion is plane.
 """
 
 from __future__ import annotations
 
 import argparse
+from dataclasses import fields
 
 import numpy as np
 from box import Array, Cannot, Message, Problem, aside, common_material, gravity, laws, uniform
@@ -20,6 +22,12 @@ with aside():
     wp.config.quiet = True
     wp.init()
 
+# In 0.1.3 the options contain the material, and states and models have no attributes of the solver.
+FIRST = hasattr(SolverImplicitMPM, "Options")
+Config = SolverImplicitMPM.Options if FIRST else SolverImplicitMPM.Config
+OPTIONS = {field.name for field in fields(Config)}
+PROPERTIES = getattr(newton, "ModelFlags", None) or newton.solvers.SolverNotifyFlags
+
 
 class Newton:
     name = "newton-mpm"
@@ -27,21 +35,33 @@ class Newton:
     precision = "single"
 
     def __init__(self, any_law: bool, friction: bool, substeps: int, drag: float, tolerance: float,
-                 **options: str) -> None:
-        self.friction, self.substeps, self.drag, self.tolerance, self.options = (
-            friction, substeps, drag, tolerance, options)
+                 **options: str | None) -> None:
+        self.friction, self.substeps, self.drag, self.tolerance = friction, substeps, drag, tolerance
+        # Elastic bodies explode with strain basis P1d in releases without `carry_residual_strain`.
+        wanted = {"strain_basis": "P0"}
+        if "carry_residual_strain" in OPTIONS:
+            wanted = {"strain_basis": "P1d", "carry_residual_strain": "unconverged"}
+        wanted |= {"velocity_basis": "B2"} if "velocity_basis" in OPTIONS else {}
+        self.options = wanted | {key: value for key, value in options.items() if value}
+        builder = newton.ModelBuilder()
+        if not FIRST:
+            SolverImplicitMPM.register_custom_attributes(builder)
+        self.has_stress = not FIRST and "mpm:particle_stress" in builder.custom_attributes
         self.capabilities = {"dimensions": [3], "laws": laws(["hencky"], any_law),
                              "conditions": ["free"], "loads": ["gravity"], "several_bodies": True}
+        if self.has_stress:
+            self.capabilities["columns"] = ["stress"]
         if friction:
-            self.capabilities |= {"dimensions": [2], "conditions": ["free", "friction"],
-                                  "columns": ["stress"]}
+            self.capabilities |= {"dimensions": [2], "conditions": ["free"] if FIRST else ["free", "friction"]}
 
     def setup(self, problem: Problem) -> None:
+        if lacking := self.options.keys() - OPTIONS:
+            raise Cannot(f"newton {self.version} without the options {', '.join(lacking)}")
         parameters = common_material(problem)["parameters"]
         self.problem = problem
         volume, mass = uniform("volumes", problem.volume), uniform("masses", problem.mass)
         builder = newton.ModelBuilder()
-        if hasattr(SolverImplicitMPM, "register_custom_attributes"):
+        if not FIRST:
             SolverImplicitMPM.register_custom_attributes(builder)
         side = volume ** (1 / problem.dimension)
         position, velocity = self.layers(problem.position, side), self.layers(problem.velocity, 0.0)
@@ -61,25 +81,18 @@ class Newton:
         self.pull(0.0)
         material = {"young_modulus": parameters["young"], "poisson_ratio": parameters["poisson"],
                     "tensile_yield_ratio": 1.0, "yield_pressure": 1e15, "yield_stress": 1e15}
-        for name, value in material.items():
-            if hasattr(model, "mpm"):  # otherwise the configuration has them
+        if FIRST:
+            model.particle_ke = model.particle_kd = model.particle_adhesion = model.particle_cohesion = None
+        else:
+            for name, value in material.items():
                 getattr(model.mpm, name).fill_(value)
-        self.solver = SolverImplicitMPM(model, self.config(problem.h, material))
+        options = {"voxel_size": problem.h, "air_drag": self.drag, "tolerance": self.tolerance, "grid_type": "dense",
+                   "grid_padding": 2, "solver": "gauss-seidel" if self.friction or FIRST else "cg",
+                   **material, **self.options}
+        self.solver = SolverImplicitMPM(model, Config(**{k: v for k, v in options.items() if k in OPTIONS}))
         self.states = [model.state(), model.state()]
-
-    def config(self, h: float, material: dict[str, float]) -> object:
-        """The options that this release has. Before 1.1, velocities are linear and conjugate gradients are
-        missing."""
-        config = (getattr(SolverImplicitMPM, "Config", None) or SolverImplicitMPM.Options)()
-        options = {"voxel_size": h, "air_drag": self.drag, "tolerance": self.tolerance, "grid_type": "dense",
-                   "grid_padding": 2, "solver": "gauss-seidel" if self.friction else "cg",
-                   "carry_residual_strain": "unconverged", **self.options, **material}
-        if not hasattr(config, "velocity_basis"):
-            options |= {"solver": "gauss-seidel", "strain_basis": "P0"}
-        for name, value in options.items():
-            if hasattr(config, name):
-                setattr(config, name, value)
-        return config
+        for state in self.states if FIRST else []:
+            SolverImplicitMPM.enrich_state(state)
 
     def layers(self, vectors: Array, side: float) -> Array:
         """Vectors in space; those of a plane body are repeated in two layers, `side` apart."""
@@ -98,7 +111,7 @@ class Newton:
         for step in range(steps * self.substeps):
             if self.friction:
                 self.pull(time + step * dt / self.substeps)
-                self.solver.notify_model_changed(newton.ModelFlags.MODEL_PROPERTIES)
+                self.solver.notify_model_changed(PROPERTIES.MODEL_PROPERTIES)
             self.solver.step(*self.states, None, None, dt / self.substeps)
             self.states.reverse()
 
@@ -106,7 +119,7 @@ class Newton:
         state, (n, d) = self.states[0], self.problem.position.shape
         x, v = (array.numpy().astype(float)[:n, :d] for array in (state.particle_q, state.particle_qd))
         answer = {"displacement": x - self.problem.reference_position, "velocity": v}
-        if hasattr(state, "mpm") and hasattr(state.mpm, "particle_stress"):  # positive in compression
+        if self.has_stress:  # newton's is positive in compression
             answer["stress"] = -state.mpm.particle_stress.numpy().astype(float)[:n, :d, :d]
         return answer
 
@@ -122,8 +135,9 @@ if __name__ == "__main__":
     parser.add_argument("--substeps", type=int, default=1, help="of each step")
     parser.add_argument("--drag", type=float, default=1e-6, help="that of the air, 1 unless said")
     parser.add_argument("--tolerance", type=float, default=1e-6, help="1e-4 unless said")
-    parser.add_argument("--velocity-basis", default="B2")
-    parser.add_argument("--strain-basis", default="P1d")
-    parser.add_argument("--integration-scheme", choices=["pic", "gimp"], default="pic")
+    parser.add_argument("--solver", help="cg or gauss-seidel unless said")
+    parser.add_argument("--velocity-basis", help="B2 unless said, Q1 before 1.1.0")
+    parser.add_argument("--strain-basis", help="P1d unless said, P0 before 1.8.0")
+    parser.add_argument("--integration-scheme", choices=["pic", "gimp"])
     parser.add_argument("--transfer-scheme", choices=["pic", "apic"], default="apic")
     serve(Newton(**vars(parser.parse_args())))
