@@ -49,6 +49,11 @@ fn document_contains_valid_suites_despite_an_invalid_file() {
     "cells": 8, "h": 0.125, "particles": 32.0, "dt": 1e-3, "steps": 50, "courant": 0.08
 }))]
 #[case(&["explain", "bar.yaml"], "/suites/0/cases/0/profile/particles", &json!(16))]
+#[case(
+    &["explain", "two-bar-impact", "--without", "contact"],
+    "/suites/0/cases/0/without/effects",
+    &json!([])
+)]
 #[case(&["steps", "bar.yaml"], "/suites/0/levels/1", &json!({
     "case": "mpm-linear-flip-musl", "cells": 6, "steps": 50, "dt": 1e-3, "wanted": 1e-3,
     "ratio": 1.0, "instants": 50, "off": false
@@ -56,7 +61,7 @@ fn document_contains_valid_suites_despite_an_invalid_file() {
 #[case(&["propose", "bar.yaml"], "/suites/0/suite", &json!("short-bar"))]
 #[case(&["diagnose", "bar.yaml", "--case", "mpm"], "/cases/0/sound", &json!(true))]
 #[case(&["problem", "bar.yaml", "--level", "1"], "/suite", &json!("short-bar"))]
-#[case(&["cost", "bar.yaml"], "/suites/0/suite", &json!("short-bar"))]
+#[case(&["cost", "bar.yaml"], "/suites/0/cases/0/levels/0/particle_updates", &json!(16 * 50))]
 #[case(&["new", "my-suite"], "/file", &json!("my-suite.yaml"))]
 fn every_command_prints_one_document(
     #[case] arguments: &[&str],

@@ -141,14 +141,19 @@ fn a_named_suite_that_is_not_applicable_fails_unless_allowed() {
     let folder = folder("h*h");
     let foreign = bar().replace("short-bar", "hencky-bar").replace("linear_elastic:", "hencky:");
     folder.write("foreign.yaml", foreign.replace("small_strain", "hencky\n  tolerance: 1e-2"));
-    let found = gate(&folder, &["bar.yaml", "foreign.yaml"], &[]).ended(FAILED);
+    // The JUnit file must agree with the gate.
+    let (both, junit) = (["bar.yaml", "foreign.yaml"], ["--junit", "junit.xml"]);
+    let failures = || folder.read("junit.xml").matches("<failure ").count();
+    let found = gate(&folder, &both, &junit).ended(FAILED);
+    assert_eq!(failures(), 1);
     // The line below the case must name the missing capability.
     let lines = found.out.lines().skip_while(|line| !line.contains("hencky-bar"));
     let lines = lines.take(2).collect::<Vec<_>>().concat();
     assert!(lines.contains("not applicable  hencky-bar::odd"), "{lines}");
     assert!(lines.contains("lacks laws: hencky"), "{lines}");
     assert!(found.errors.contains("hencky-bar; `--allow-not-applicable`"), "{}", found.errors);
-    gate(&folder, &["bar.yaml", "foreign.yaml"], &["--allow-not-applicable"]).ended(SOUND);
+    gate(&folder, &both, &[&junit[..], &["--allow-not-applicable"]].concat()).ended(SOUND);
+    assert_eq!(failures(), 0);
     assert_eq!(gate(&folder, &["foreign.yaml"], &["--allow-not-applicable"]).code, FAILED);
 }
 

@@ -76,6 +76,7 @@ fn invalid_table_is_refused(
     let errors = folder.refused(&["judge", "bar.yaml", "--from", "results"]);
     let place = format!("--> results/1.csv{place} ");
     assert_contains(&(flat(&errors) + " "), &[&place, message]);
+    assert!(!errors.contains("as many rows"), "the other level has 8 rows: {errors}");
 }
 
 /// Each file replaces the results of the second level.

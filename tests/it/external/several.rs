@@ -2,7 +2,8 @@
 
 use super::bar;
 use super::program::solver_of;
-use crate::cli::{Folder, SOUND, assert_refusals};
+use crate::cli::{FAILED, Folder, SOUND, assert_refusals};
+use crate::common::folder::assert_contains;
 use rstest::{fixture, rstest};
 use serde_json::Value;
 
@@ -68,6 +69,17 @@ fn one_ranking_by_seconds_has_methods_and_solvers(folder: Folder) {
             assert!(level["seconds"]["median"].as_f64() > Some(0.0), "{case}");
         }
     }
+}
+
+/// The first solver passes the suite and the second one fails, so the next suite does not start.
+#[rstest]
+fn fail_fast_ends_the_run_if_one_of_two_solvers_fails(folder: Folder) {
+    folder.write("low.sh", solver_of("h"));
+    folder.write("next.yaml", bar().replace("short-bar", "next-bar"));
+    let run = ["run", "bar.yaml", "next.yaml", "--gate", "--fail-fast", "--jobs", "1", "--brief"];
+    let solvers = ["--solver", "first=sh one.sh", "--solver", "second=sh low.sh"];
+    let found = folder.call(&[&run[..], &solvers].concat()).ended(FAILED);
+    assert_contains(&found.errors, &["so 1 suite did not start (--fail-fast)"]);
 }
 
 #[rstest]

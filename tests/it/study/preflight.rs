@@ -100,6 +100,10 @@ fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
     &[("a: 1e-8", "a: 1e-4")],
     Severity::Note, ("displacement", "at a strain of 1.1e-4", "would become visible from about")
 )]
+#[case::small_strain_in_compression(
+    &[("a: 1e-8", "a: -1e-4")],
+    Severity::Note, ("displacement", "at a strain of 1.1e-4", "would become visible from about")
+)]
 #[case::single_precision_that_shows(
     &[(MPM, SINGLE), ("a: 1e-8", "a: 1e-4")],
     Severity::Warning, ("displacement", "from 12 cells on, the discretisation error, about 3.4e-7 m, is below the rounding bound of 6.9e-7 m", "an amplitude 17 times as large leaves 4 levels above the bound")

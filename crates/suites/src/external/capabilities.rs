@@ -358,6 +358,8 @@ mod tests {
         let beyond = ["heat, which the protocol does not support"];
         assert_eq!(Capabilities::default().lacking(&needs), [&lists[..], FLAGS, &beyond].concat());
         assert_eq!(everything().lacking(&needs), beyond);
+        let others = Capabilities { dimensions: vec![1, 3], ..everything() };
+        assert_eq!(others.lacking(&needs), ["dimensions: 2", beyond[0]]);
     }
 
     #[test]

@@ -240,6 +240,12 @@ mod tests {
         Connection::start(&command, limits).expect("a shell")
     }
 
+    /// The documentation of `--solver-timeout` states the same default.
+    #[test]
+    fn default_response_timeout_is_a_minute() {
+        assert_eq!(ProgramLimits::default().silence, Duration::from_secs(60));
+    }
+
     /// The message is longer than the pipe, so that its writer blocks.
     #[rstest]
     #[case::silence("exec sleep 99", 0.05, 0, "did not answer within 0.05 s")]
