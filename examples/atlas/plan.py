@@ -167,12 +167,15 @@ CODES = [
         "MUSL, off faces": (["--scheme", "musl"], ["free-bar-pulse-small-3d"]),
     }, {"off faces": OFF_FACES, "MUSL, off faces": OFF_FACES}, panel="plane", basis="linear",
         about="2-D, 3-D; linear; walls",
+        reports={"depends-on-units": "kratos-small-masses", "`narrow-gap` fails": "kratos-search-tolerance",
+                 "ImportError": "kratos-missing-library"},
         modes={"MUSL": ["--scheme", "musl"], "central difference": ["--scheme", "central_difference"],
                "triangles": ["--mesh", "triangles"], "Newmark": ["--scheme", "newmark"],
                "Bossak": ["--scheme", "bossak"],
                "mixed u-p, Newmark": ["--scheme", "newmark", "--formulation", "mixed"]}),
     Code("mpm99", "taichi mpm99", PLANE + FREE_2D,
-         {"f32": ["--precision", "f32"], "f64": ["--precision", "f64"]}, panel="plane", about="2-D; quadratic; no walls", examined=["--gravity", "off"], gradients={
+         {"f32": ["--precision", "f32"], "f64": ["--precision", "f64"]}, panel="plane",
+         about="2-D; quadratic; no walls", examined=["--gravity", "off"], gradients={
              f"f64, {title}": (["--precision", "f64", "--derivatives", option],
                                ["gradient-free-bar-pulse"])
              for option, title in [("tape", "tape"), ("checked", "tape with checks"),
@@ -191,7 +194,8 @@ CODES = [
     Code("newton_mpm", "newton", FREE_3D + SPACE, {"f32": []}, {
         "two substeps": (["--substeps", "2"], ["free-bar-pulse-hencky-3d"]),
         "dt as h^2": ([], ["free-bar-pulse-hencky-3d"]),
-    }, {"dt as h^2": {'dt: "0.2*h/c"': 'dt: "6.4*h^2/c"'}}, panel="space", about="3-D; quadratic, friction walls", implicit=True, modes={
+    }, {"dt as h^2": {'dt: "0.2*h/c"': 'dt: "6.4*h^2/c"'}}, panel="space",
+        about="3-D; quadratic; friction walls", implicit=True, modes={
         "velocities Q1, f32": ["--velocity-basis", "Q1"], "velocities B3, f32": ["--velocity-basis", "B3"],
         "GIMP, f32": ["--integration-scheme", "gimp"], "PIC transfer, f32": ["--transfer-scheme", "pic"]}),
     Code("phyz", "phyz-particle", SPACE + FREE_3D, {"FLIP 0.95": []}, {

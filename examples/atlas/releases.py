@@ -71,7 +71,7 @@ def summary(rows: list[dict[str, str]]) -> str:
     lines = []
     for column in columns():
         mine = [row for row in rows if column.owns(row)]
-        if mine:
+        if any(row["suite"] == "doctor" or row["verdict"] == "cannot start" for row in mine):
             lines.append((column.group, *judge(column, mine, rows)))
     lines.sort(key=lambda line: line[:2])
     out = []
@@ -85,13 +85,14 @@ def summary(rows: list[dict[str, str]]) -> str:
 
 def judge(column: Column, mine: list[dict[str, str]], rows: list[dict[str, str]]) -> tuple:
     """Key of the rank, name, verdict, relative error, and findings of a column."""
-    examined = next((row for row in mine if row["suite"] == "doctor"), {"verdict": "not examined", "reason": ""})
+    wanted = [row for row in mine if row["suite"] == "doctor" or row["verdict"] == "cannot start"]
+    examined = wanted[0] if wanted else {"verdict": "not examined", "reason": ""}
     ratios = [ratio for row in mine if (ratio := relative(column, row, rows))]
     error = exp(fmean(map(log, ratios))) if ratios else inf
     failed = dict.fromkeys(row["suite"] for row in mine if row["verdict"] == "failed")
     found = [f"`{suite}` fails" for suite in failed]
     found += [f"`{row['suite']}`: error {float(row['errors'].split()[-1]):.1e}" for row in mine
-              if row["suite"].startswith("translating") and not row["failed"]
+              if row["suite"].startswith("translating") and row["errors"] and not row["failed"]
               and not max(map(float, row["errors"].split())) < TRANSLATION]
     if examined["verdict"] == "defect":
         found.insert(0, examined["reason"])
@@ -103,7 +104,8 @@ def judge(column: Column, mine: list[dict[str, str]], rows: list[dict[str, str]]
 
 
 def linked(findings: str, code: Code) -> str:
-    """Findings, with links to the texts about them."""
+    """Findings, with links to the texts about them; of a message, the error."""
+    findings = next((part for part in findings.split(" | ") if "Error:" in part), findings)
     for name, text in code.reports.items():
         findings = findings.replace(name, f"[{name}](../examples/atlas/reports/{text}.md)")
     return findings

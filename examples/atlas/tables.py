@@ -10,11 +10,13 @@ from releases import PANELS, changes, columns, summary
 DOCS = HERE.parent.parent / "docs"
 RESULTS = HERE / "results.csv"
 
-# The columns of results.csv, one row for each case. `release` is empty for full runs of the newest release. `cells`, `failed` (cells of the levels that fail), `errors` and
+# The columns of results.csv, one row for each case. `release` is empty for full runs of the newest release; for
+# `doctor`, `reason` has its findings and `cells` the number of examinations. `cells`, `failed` (cells of the levels that
+# fail), `errors` and
 # `momentum` (relative drift) have one entry for each level. The columns from `value_difference` to `sweep` are checks
 # of a derivative.
-COLUMNS = ["code", "release", "variant", "suite", "case", "derivative_by", "verdict", "order", "order_low", "order_high", "cells",
-           "failed", "errors", "momentum", "lacks", "value_difference", "taylor_orders", "derivative_error", "sweep",
+COLUMNS = ["code", "release", "variant", "suite", "case", "derivative_by", "verdict", "order", "order_low", "order_high",
+           "cells", "failed", "errors", "momentum", "lacks", "value_difference", "taylor_orders", "derivative_error", "sweep",
            "seconds", "reason"]
 
 
@@ -107,7 +109,7 @@ def panel(name: str, rows: list[dict[str, str]]) -> str:
     """The small runs of each release: a row for each column of results, a cell for each suite."""
     lines = []
     for column in columns():
-        mine = [row for row in rows if column.owns(row) and row["suite"] != "doctor"]
+        mine = [row for row in rows if column.owns(row) and row["suite"] != "doctor" and row["cells"]]
         if mine and column.code.panel == name:
             runs = {suite: [row for row in mine if row["suite"] == suite] for suite in PANELS[name]}
             cells = [contact(some) if suite in GAPS else "; ".join(map(cell, some)).replace("too few levels;", "error")
@@ -123,7 +125,7 @@ def contact(runs: list[dict[str, str]]) -> str:
     near = [3 - end for run, end in zip(runs, ends) if not float(run["errors"] or "nan") < 1e-3]
     below = f"below {min(apart):.3g}" if apart else ""
     above = f"above {max(near):.3g}" if near else ""
-    return " and ".join(filter(None, [above, below])) + " cells"
+    return " and ".join(filter(None, [above, below]))
 
 
 def start(case: str) -> str:
