@@ -265,15 +265,17 @@ pub(in crate::verify) mod tests {
     #[test]
     fn verdicts_that_contradict_the_order_fail() {
         use Verdict::{AtFloor, Divergent, Failed, Oscillatory, TooLow};
-        let fails = |verdict: Verdict, bounded: bool| {
+        let fails = |verdict: Verdict, bounded: bool, accepted: Option<Acceptance>| {
             let mut study = study(&[1.0, 0.25]);
             (study.judgement.verdict, study.bounded) = (verdict, bounded);
+            study.accepted = accepted;
             study.fails()
         };
         for &verdict in Verdict::ALL {
             let contradicts = [TooLow, AtFloor, Oscillatory, Divergent, Failed].contains(&verdict);
-            assert_eq!(fails(verdict, false), contradicts, "{verdict}");
-            assert!(!fails(verdict, true), "{verdict}");
+            assert_eq!(fails(verdict, false, None), contradicts, "{verdict}");
+            assert!(!fails(verdict, true, None), "{verdict}");
+            assert!(!fails(verdict, false, Some(Acceptance::Bound)), "{verdict}");
         }
     }
 
