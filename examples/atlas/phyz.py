@@ -66,5 +66,6 @@ if __name__ == "__main__":
     parser.add_argument("--flip", type=float, default=0.95, help="share of FLIP, 0.95 unless said")
     parser.add_argument("--stiffness", type=float, default=1, help="share of that of the problem")
     parser.add_argument("--any-law", action="store_true", help="where nothing deforms")
-    parser.add_argument("--gravity", choices=["on", "off"], default="on", help="`off` for problems without any")
+    parser.add_argument("--gravity", choices=["on", "off"], default="on", help="off: problems without gravity "
+                        "only, for `doctor`, whose gravity does not act downwards")
     serve(Phyz(**vars(parser.parse_args())))

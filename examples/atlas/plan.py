@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -83,6 +84,7 @@ def is_rigid(suite: str) -> bool:
     return suite.startswith(("translating-block", "falling-block"))
 
 
+@cache
 def packages() -> dict[str, dict[str, str]]:
     """The packages of each release of each code, oldest first."""
     found: dict[str, dict[str, str]] = {}

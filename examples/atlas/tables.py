@@ -11,10 +11,9 @@ DOCS = HERE.parent.parent / "docs"
 RESULTS = HERE / "results.csv"
 
 # The columns of results.csv, one row for each case. `release` is empty for full runs of the newest release; for
-# `doctor`, `reason` has its findings and `cells` the number of examinations. `cells`, `failed` (cells of the levels that
-# fail), `errors` and
-# `momentum` (relative drift) have one entry for each level. The columns from `value_difference` to `sweep` are checks
-# of a derivative.
+# `doctor`, `reason` has its findings and `cells` the number of examinations. Otherwise `cells`, `failed` (cells of the
+# levels that fail), `errors` and `momentum` (relative drift) have one entry for each level. The columns from
+# `value_difference` to `sweep` are checks of a derivative.
 COLUMNS = ["code", "release", "variant", "suite", "case", "derivative_by", "verdict", "order", "order_low", "order_high",
            "cells", "failed", "errors", "momentum", "lacks", "value_difference", "taylor_orders", "derivative_error", "sweep",
            "seconds", "reason"]
