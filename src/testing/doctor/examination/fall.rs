@@ -199,10 +199,10 @@ const RULES: [FallRule; 8] = [
         |fall| fall.has_lag(0.5) && fall.has_share(0.0),
         FindingWeight::Defect,
         "positions-from-mean-velocity",
-        "each step moves the body by the mean of the reported velocities before and after the \
-         step. Both are half a step early, so positions are half a step behind",
-        "the velocity that moves particles: the new velocity of the grid, not a mean with the old \
-         velocity of the particle",
+        "each step moves the body by the mean of the velocities before and after it, which are half \
+         a step early. Velocity Verlet or Newmark without an initial acceleration does the same",
+        "the velocity that moves particles (the new velocity of the grid, not a mean with the old \
+         velocity of the particle), and the acceleration at the start",
     ),
     (
         |fall| fall.has_lag_of_scheme() && fall.has_share(-1.0),
@@ -231,8 +231,8 @@ const RULES: [FallRule; 8] = [
         "velocity-of-another-time",
         "the reported velocities belong neither to the time after the step, nor to half a step \
          before this time as in a leapfrog",
-        "the code before the first step: v(-dt/2) = v0 - a dt/2, not v0 + a dt/2; the number of \
-         steps; the variable from which the answer takes velocities",
+        "the code before the first step: v(-dt/2) = v0 - a dt/2, not v0 + a dt/2, or the initial \
+         acceleration; the number of steps; the variable from which the answer takes velocities",
     ),
     (
         |_| true,
