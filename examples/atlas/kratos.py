@@ -1,4 +1,4 @@
-"""Kratos' MPM application: linear functions on a mesh of squares, triangles or cubes. Explicit in
+"""Kratos' MPM application: linear functions on a mesh of squares or cubes. Explicit in
 time, implicit in time (`--scheme newmark` or `bossak`), or in quasi-static load steps (`static`).
 
 Each particle is created from a separate small element, at its centre. Walls are constrained nodes,
@@ -20,11 +20,9 @@ with aside():
     import KratosMultiphysics.MPMApplication as Mpm
     from KratosMultiphysics.MPMApplication import python_solvers_wrapper_mpm as wrapper
 
-IMPLICIT = {
-    "static": {"solver_type": "static"},
-    "newmark": {"solver_type": "dynamic", "time_integration_method": "implicit", "scheme_type": "newmark"},
-    "bossak": {"solver_type": "dynamic", "time_integration_method": "implicit", "scheme_type": "bossak"},
-}
+DYNAMIC = {"solver_type": "dynamic", "time_integration_method": "implicit"}
+IMPLICIT = {"static": {"solver_type": "static"}, "newmark": {**DYNAMIC, "scheme_type": "newmark"},
+            "bossak": {**DYNAMIC, "scheme_type": "bossak"}}
 ELEMENTS = {2: "Element2D4N", 3: "Element3D8N"}
 LAWS = {
     (2, "linear_elastic"): "LinearElasticIsotropicPlaneStrain2DLaw",
@@ -34,7 +32,6 @@ LAWS = {
 }
 AXES = "XYZ"
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
-TRIANGLES = [[0, 1, 2], [0, 2, 3]]  # of a square
 CORNERS = {2: SQUARE, 3: [(*xy, z) for z in (0, 1) for xy in SQUARE]}
 
 
@@ -42,13 +39,11 @@ class Kratos:
     name = "kratos-mpm"
     version = Km.KratosGlobals.Kernel.Version().split("-")[0].replace('"', "")
 
-    def __init__(self, scheme: str, search: float, any_law: bool, mesh: str, formulation: str) -> None:
+    def __init__(self, scheme: str, search: float, any_law: bool) -> None:
         self.scheme, self.search = scheme, search
-        self.mixed = formulation == "mixed"
-        self.triangles = self.mixed or mesh == "triangles"
+        self.is_forward_euler = scheme in ("usf", "usl", "musl")
         self.capabilities = {
-            "dimensions": [2] if self.triangles else [2, 3],
-            "laws": laws(["neo_hookean"] if self.mixed else ["linear_elastic", "neo_hookean"], any_law),
+            "dimensions": [2, 3], "laws": laws(["linear_elastic", "neo_hookean"], any_law),
             "conditions": ["free", "fixed", "roller"], "loads": ["gravity", "body_force"],
             "manufactured": True, "load_steps": scheme == "static", "several_bodies": True}
 
@@ -69,6 +64,8 @@ class Kratos:
         if len(self.points) != len(problem.position):
             raise Cannot(f"{len(self.points)} particles of {len(problem.position)} were made")
         self.give(Mpm.MP_VELOCITY, problem.velocity)
+        if not self.is_forward_euler and self.scheme != "static" and problem.message["body_force"] != "none":
+            self.give(Mpm.MP_ACCELERATION, problem.body_force(0.0))  # of a body without stress; Kratos starts with zero
 
     def settings(self) -> Km.Parameters:
         """Parameters of the solver. A load step is a unit of time."""
@@ -83,8 +80,7 @@ class Kratos:
             return Km.Parameters(json.dumps(common | IMPLICIT[self.scheme] | {
                 "analysis_type": "non_linear", "convergence_criterion": "residual_criterion",
                 "residual_relative_tolerance": 1e-12, "residual_absolute_tolerance": 1e-12,
-                "max_iteration": 50, "pressure_dofs": self.mixed,
-                "linear_solver_settings": {"solver_type": "skyline_lu_factorization"}}))
+                "max_iteration": 50, "linear_solver_settings": {"solver_type": "skyline_lu_factorization"}}))
         central = self.scheme == "central_difference"
         return Km.Parameters(json.dumps(common | {
             "solver_type": "dynamic", "time_integration_method": "explicit", "analysis_type": "linear",
@@ -102,17 +98,12 @@ class Kratos:
         properties = part.CreateNewProperties(0)
         for k, cell in enumerate(itertools.product(*map(range, counts))):
             nodes = [number[tuple(np.add(cell, corner))] for corner in CORNERS[self.d]]
-            if self.triangles:
-                for t, triangle in enumerate(TRIANGLES):
-                    part.CreateNewElement("Element2D3N", 2 * k + t + 1, [nodes[c] for c in triangle], properties)
-            else:
-                part.CreateNewElement(ELEMENTS[self.d], k + 1, nodes, properties)
+            part.CreateNewElement(ELEMENTS[self.d], k + 1, nodes, properties)
 
     def add_body(self, part: Km.ModelPart) -> None:
         problem, material = self.problem, common_material(self.problem)
         properties = part.CreateNewProperties(1)
         law = LAWS.get((self.d, material["law"]), LAWS[self.d, "neo_hookean"])
-        law = law.replace("NeoHookeanPlaneStrain", "NeoHookeanPlaneStrainUP") if self.mixed else law
         properties.SetValue(Km.CONSTITUTIVE_LAW, Km.KratosGlobals.GetConstitutiveLaw(law).Clone())
         properties.SetValue(Km.YOUNG_MODULUS, material["parameters"]["young"])
         properties.SetValue(Km.POISSON_RATIO, material["parameters"]["poisson"])
@@ -158,9 +149,10 @@ class Kratos:
         start = [self.solver.InitializeSolutionStep, self.solver.Predict]
         if "_SearchElement" in self.solver.Predict.__code__.co_names:  # releases from 10.4.2 on predict first
             start.reverse()
+        late = 0 if self.is_forward_euler else 1  # the others use the force at the end of a step
         for step in range(steps):
             if has_force:
-                self.give(Mpm.MP_VOLUME_ACCELERATION, self.load(time + step * dt))
+                self.give(Mpm.MP_VOLUME_ACCELERATION, self.load(time + (step + late) * dt))
             self.time = self.solver.AdvanceInTime(self.time)
             for part in (*start, self.solver.SolveSolutionStep, self.solver.FinalizeSolutionStep):
                 part()
@@ -182,8 +174,5 @@ if __name__ == "__main__":
     parser.add_argument("--scheme", choices=schemes, default="usl")
     parser.add_argument("--search", type=float, default=1e-5, help="how far beyond the faces of a "
                         "cell a particle still counts as inside; Kratos' default is 1e-5")
-    parser.add_argument("--mesh", choices=["squares", "triangles"], default="squares", help="in two dimensions")
-    parser.add_argument("--formulation", choices=["displacement", "mixed"], default="displacement",
-                        help="mixed: displacement and pressure, on triangles, with an implicit scheme")
     parser.add_argument("--any-law", action="store_true", help="where nothing deforms")
     serve(Kratos(**vars(parser.parse_args())))

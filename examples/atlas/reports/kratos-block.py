@@ -2,6 +2,7 @@
 
 import json
 import sys
+from itertools import product
 
 import KratosMultiphysics as Km
 import KratosMultiphysics.MPMApplication as Mpm
@@ -67,11 +68,12 @@ class Block:
 
 def masses():
     """A particle moves freely at 1 m/s for one step of 0.01 s; its mass is 0.25 density."""
-    for density in (1.0, 1e-12, 1e-15, 1e-18):
-        block = Block([(1.3, 1.4)], density=density)
+    for kind, density in product((EXPLICIT, NEWMARK), (1.0, 1e-12, 1e-15, 1e-18)):
+        block = Block([(1.3, 1.4)], density=density, young=density, kind=kind)
         block.give(Mpm.MP_VELOCITY, [(1, 0)])
         block.step()
-        print(f"density {density:g}: displacement {block.take(Mpm.MP_DISPLACEMENT)[0, 0]:.6f}, expected 0.01")
+        print(f"{kind['time_integration_method']}, density {density:g}: displacement "
+              f"{block.take(Mpm.MP_DISPLACEMENT)[0, 0]:.6f}, expected 0.01")
 
 
 def tolerance():
