@@ -4,9 +4,9 @@ Hu et al. (2018), ACM Trans. Graph. 37. Its kernel has a constant downward accel
 time unit is chosen so that this is the gravity of the problem, or negligible. The body does not
 reach the walls.
 
-With `--derivatives` the kernel is differentiated by Taichi, unmodified: `tape` in reverse mode,
-`checked` with the check of Taichi's rules as well, `forward` in forward mode. Young's modulus is
-then a field: material 3 (neither liquid, jelly nor snow) has the modulus E exp(10 (1 - Jp)).
+With `--derivatives` the kernel is differentiated by Taichi in reverse mode, unmodified: `checked` has the
+check of Taichi's rules as well. Young's modulus is then a field: material 3 (neither liquid, jelly nor
+snow) has the modulus E exp(10 (1 - Jp)).
 """
 
 from __future__ import annotations
@@ -23,8 +23,6 @@ with aside():
 
 GRAVITY, JELLY, SOFTER = 50.0, 1, 0.3  # constants of mpm99
 ELASTIC, HARDENING = 3, 10.0  # another material, and its constant
-FIELDS = {None: {}, "tape": {"needs_grad": True}, "checked": {"needs_grad": True},
-          "forward": {"needs_dual": True}}
 PAD = 6
 
 
@@ -47,7 +45,7 @@ class Mpm99:
         code.dt = problem.dt / box.second
         code.p_vol = code.p_mass = box.volume
         code.mu_0, code.lambda_0 = box.mu / SOFTER, box.lam / SOFTER
-        n, real = len(box.x), {"dtype": float, **FIELDS[self.derivatives]}
+        n, real = len(box.x), {"dtype": float, "needs_grad": self.derivatives is not None}
         for name, start in [("x", box.x), ("v", box.v)]:
             setattr(code, name, ti.Vector.field(2, **real, shape=n))
             getattr(code, name).from_numpy(start)
@@ -74,10 +72,9 @@ class Mpm99:
     def load(self) -> Any:
         start = ti.init
         precision = {"f32": ti.f32, "f64": ti.f64}[self.bits]
-        more = {"checked": {"debug": True}, "forward": {"force_scalarize_matrix": True}}
         # One thread: sums in a fixed order.
         ti.init = lambda **_: start(arch=ti.cpu, default_fp=precision, cpu_max_num_threads=1,
-                                    **more.get(self.derivatives, {}))
+                                    debug=self.derivatives == "checked")
         from taichi.examples.simulation import mpm99
         return mpm99
 
@@ -93,8 +90,7 @@ class Mpm99:
         code, box = self.code, self.box
         code.mu_0, code.lambda_0 = box.mu, box.lam
         code.material.fill(ELASTIC)
-        run = self.forward if self.derivatives == "forward" else self.reverse
-        of_log_young, of_velocity = run(steps, self.functional())
+        of_log_young, of_velocity = self.reverse(steps, self.functional())
         if not np.isfinite([of_log_young, of_velocity]).all():
             raise ArithmeticError(f"the derivatives are {of_log_young} and {of_velocity}")
         material = box.problem.materials[0]
@@ -130,26 +126,6 @@ class Mpm99:
         return (float(-code.Jp.grad.to_numpy().sum() / HARDENING),
                 float((code.v.grad.to_numpy() * self.box.v).sum()))
 
-    def forward(self, steps: int, functional: Any) -> tuple[float, float]:
-        """The same derivatives, in one pass for each of them."""
-        code, slopes = self.code, []
-        fields = {name: getattr(code, name) for name in ("x", "v", "C", "F", "Jp")}
-        start = {name: field.to_numpy() for name, field in fields.items()}
-        seeds = [("Jp", np.full(len(self.box.x), -1 / HARDENING)), ("v", self.box.v)]
-        for seeded, seed in seeds:
-            for name, field in fields.items():
-                field.from_numpy(start[name])
-                field.dual.from_numpy(seed if name == seeded else np.zeros_like(start[name]))
-            code.grid_v.dual.fill(0)
-            code.grid_m.dual.fill(0)
-            self.value[None] = 0
-            with ti.ad.FwdMode(self.value, self.value, clear_gradients=False):
-                self.value.dual[None] = 0
-                self.advance(steps, 0.0, 0.0)
-                functional()
-                slopes.append(self.value.dual[None])
-        return slopes[0], slopes[1]
-
     def state(self) -> Message:
         return self.box.motion(self.code.x.to_numpy(), self.code.v.to_numpy())
 
@@ -157,7 +133,7 @@ class Mpm99:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--precision", choices=["f32", "f64"], default="f32")
-    parser.add_argument("--derivatives", choices=["tape", "checked", "forward"],
+    parser.add_argument("--derivatives", choices=["tape", "checked"],
                         help="by Taichi's automatic differentiation")
     parser.add_argument("--gravity", choices=["on", "off"], default="on", help="off: problems without "
                         "gravity only, for `doctor`, whose gravity does not act downwards")

@@ -23,12 +23,12 @@ LAGRANGIAN = ["translating-block", "falling-block", "free-bar-pulse", "free-bar-
               "two-shears-nearly-incompressible", "lame-square",
               "lame-square-nearly-incompressible", "lame-block",
               "lame-block-nearly-incompressible"]
-# Bodies with free faces only, and the distance at which two bodies interact through the grid.
+# Bodies with free faces only.
 FREE_2D = ["lame-square", "lame-square-shifted", "lame-square-rotated",
-           "lame-square-nearly-incompressible", "translating-body", "narrow-gap"]
-FREE_3D = ["lame-block", "lame-block-shifted", "lame-block-nearly-incompressible", "narrow-gap-3d"]
+           "lame-square-nearly-incompressible", "translating-body"]
+FREE_3D = ["lame-block", "lame-block-shifted", "lame-block-nearly-incompressible"]
 FREE = FREE_2D + FREE_3D
-# Times (s) at which the runs of these suites end. A gap of 3 cells closes with one cell per second.
+# Times (s) at which the runs of these small suites end. A gap of 3 cells closes with one cell per second.
 GAPS = {"narrow-gap": [0.2, 0.3, 1.2, 1.3, 1.95, 2.05, 2.2, 2.3],
         "narrow-gap-3d": [1.2, 1.3, 2.2, 2.3]}
 # For the MPM clients of this repository: locking and gases.
@@ -119,8 +119,6 @@ class Code:
     crate: str | None = None
     adapter: str | None = None  # path from this folder, if it differs from the name; C++ is compiled
     takes_any_law: bool = True  # option `--any-law` for suites in which nothing deforms
-    # Runs of gradient suites: the settings of each, and its suites.
-    gradients: dict[str, tuple[list[str], list[str]]] = field(default_factory=dict)
     # Small runs of all releases: the suites (a key of PANELS), further modes of the newest release, and
     # the basis functions.
     panel: str = ""
@@ -142,8 +140,6 @@ class Code:
                  for suite in self.suites]
         asked += [(suite, variant, arguments)
                   for variant, (arguments, suites) in self.further.items() for suite in suites]
-        asked += [(suite, variant, arguments)
-                  for variant, (arguments, suites) in self.gradients.items() for suite in suites]
         rigid = {True: ["--any-law"], False: []}
         return [Run(suite, variant, arguments + rigid[self.takes_any_law and is_rigid(suite)],
                     self.changes.get(variant, {}))
@@ -172,27 +168,19 @@ CODES = [
         reports={"depends-on-units": "kratos-small-masses", "`narrow-gap` fails": "kratos-search-tolerance",
                  "ImportError": "kratos-missing-library"},
         modes={"MUSL": ["--scheme", "musl"], "central difference": ["--scheme", "central_difference"],
-               "triangles": ["--mesh", "triangles"], "Newmark": ["--scheme", "newmark"],
-               "Bossak": ["--scheme", "bossak"],
-               "mixed u-p, Newmark": ["--scheme", "newmark", "--formulation", "mixed"]}),
+               "Newmark": ["--scheme", "newmark"], "Bossak": ["--scheme", "bossak"]}),
     Code("mpm99", "taichi mpm99", PLANE + FREE_2D,
          {"f32": ["--precision", "f32"], "f64": ["--precision", "f64"]}, panel="plane",
-         about="2-D; quadratic; no walls", examined=["--gravity", "off"], gradients={
+         about="2-D; quadratic; no walls", examined=["--gravity", "off"], further={
              f"f64, {title}": (["--precision", "f64", "--derivatives", option],
                                ["gradient-free-bar-pulse"])
-             for option, title in [("tape", "tape"), ("checked", "tape with checks"),
-                                   ("forward", "forward mode")]}),
-    Code("torch_mpm", "mpm-pytorch", SPACE + FREE_3D, {"f32": []}, {
+             for option, title in [("tape", "tape"), ("checked", "tape with checks")]}),
+    Code("torch_mpm", "mpm-pytorch", [*SPACE, *FREE_3D, "gradient-free-bar-pulse-3d"], {"f32": []}, {
         "f64": (["--precision", "f64"], ["translating-block-3d", "free-bar-pulse-hencky-3d",
                                          "moving-bar-pulse-3d", "moving-bar-pulse-hencky-3d",
                                          "free-bar-pulse-small-3d", "moving-bar-pulse-small-3d",
-                                         *FREE_3D]),
-    }, panel="space", about="3-D; quadratic; no walls", modes={"f64": ["--precision", "f64"]}, gradients={
-        "f32": ([], ["gradient-free-bar-pulse-3d"]),
-        "f64": (["--precision", "f64"], ["gradient-free-bar-pulse-3d"]),
-        "f64, bounded adjoint": (["--precision", "f64", "--svd", "bounded"],
-                                 ["gradient-free-bar-pulse-3d"]),
-    }),
+                                         *FREE_3D, "gradient-free-bar-pulse-3d"]),
+    }, panel="space", about="3-D; quadratic; no walls", modes={"f64": ["--precision", "f64"]}),
     Code("newton_mpm", "newton", FREE_3D + SPACE, {"f32": []}, {
         "two substeps": (["--substeps", "2"], ["free-bar-pulse-hencky-3d"]),
         "dt as h^2": ([], ["free-bar-pulse-hencky-3d"]),

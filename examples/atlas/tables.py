@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 
 from plan import (CODES, EXACT, FREE_2D, FREE_3D, GAPS, HERE, LAGRANGIAN, PLANE, SPACE, own_cases)
-from releases import PANELS, changes, columns, summary
+from releases import OWN, PANELS, changes, columns, summary
 
 DOCS = HERE.parent.parent / "docs"
 RESULTS = HERE / "results.csv"
@@ -85,36 +85,22 @@ def matrix(suites: list[str], reports: dict[str, list[dict]]) -> str:
     return table(["suite", *(title for title, _, _ in columns), *methods], rows)
 
 
-def gaps(reports: dict[str, list[dict]]) -> str:
-    """The largest error of each code at each distance between two bodies (cells)."""
-    titles = {code.name: code.title for code in CODES} | {"own": "mpm-verify"}
-    rows: dict[tuple[str, str], dict[float, str]] = {}
-    for name, runs in reports.items():
-        ends: dict[tuple[str, str], list[float]] = {}
-        for run in runs:
-            if run["suite"] in GAPS and not run["lacks"]:
-                method = run["variant"] or own_cases(run["suite"])[run["case"].split("-until-")[0]]
-                key = (f"`{run['suite']}`", f"{titles[name]}, {method}")
-                end = ends.setdefault(key, list(GAPS[run["suite"]])).pop(0)
-                distance = round(3 - end, 2)
-                rows.setdefault(key, {})[distance] = f"{float(run['errors']):.0e}"
-    distances = sorted({distance for row in rows.values() for distance in row}, reverse=True)
-    return table(["suite", "code", *map(str, distances)],
-                 [[*key, *(row.get(distance, "") for distance in distances)]
-                  for key, row in sorted(rows.items())])
-
-
 def panel(name: str, rows: list[dict[str, str]]) -> str:
-    """The small runs of each release: a row for each column of results, a cell for each suite."""
-    lines = []
-    for column in columns():
-        mine = [row for row in rows if column.owns(row) and row["suite"] != "doctor" and row["cells"]]
-        if mine and column.code.panel == name:
-            runs = {suite: [row for row in mine if row["suite"] == suite] for suite in PANELS[name]}
-            cells = [contact(some) if suite in GAPS else "; ".join(map(cell, some)).replace("too few levels;", "error")
-                     for suite, some in runs.items()]
-            lines.append([f"{column.code.label} {column.release}, {column.mode}", *cells])
-    return table(["code and release", *(f"`{suite}`" for suite in PANELS[name])], lines)
+    """The small runs: a cell for each suite, a row for the releases with the same cells."""
+    lines: dict[tuple[str, ...], list[str]] = {}
+    shown = [(column.code.label, column.mode, column.release, [row for row in rows if column.owns(row)])
+             for column in columns() if column.code.panel == name]
+    shown += [("mpm-verify", basis, "", [row for row in rows if (row["code"], row["release"]) == ("own", "here")
+                                         and row["case"].startswith(method)]) for basis, method in OWN.items()]
+    for label, mode, release, mine in shown:
+        runs = {suite: [row for row in mine if row["suite"] == suite and row["cells"]] for suite in PANELS[name]}
+        cells = [contact(some) if suite in GAPS else
+                 "; ".join(start(run["case"]) + cell(run).replace("too few levels;", "error") for run in some)
+                 for suite, some in runs.items()]
+        if any(cells):
+            lines.setdefault((f"{label}, {mode}", *cells), []).append(release)
+    return table(["code and mode", "releases", *(f"`{suite}`" for suite in PANELS[name])],
+                 [[title, ", ".join(releases), *cells] for (title, *cells), releases in lines.items()])
 
 
 def contact(runs: list[dict[str, str]]) -> str:
@@ -136,7 +122,7 @@ def further(reports: dict[str, list[dict]]) -> str:
     rows = []
     for code in CODES:
         for run in reports.get(code.name, []):
-            if run["variant"] in code.further and run["suite"] not in GAPS:
+            if run["variant"] in code.further:
                 [first, *_] = [old for old in reports[code.name] if old["suite"] == run["suite"]]
                 rows.append([code.title, f"`{run['suite']}`", run["variant"],
                              cell(run), cell(first)])
@@ -179,8 +165,8 @@ def write(rows: list[dict[str, str]]) -> None:
     releases = {"releases": summary(rows), "changes": changes(rows),
                 "panel-2d": panel("plane", rows), "panel-3d": panel("space", rows)}
     newest = {"plane": matrix(PLANE, reports), "space": matrix(SPACE, reports),
-              "free-2d": matrix(FREE_2D[:-1], reports), "free-3d": matrix(FREE_3D[:-1], reports),
-              "gaps": gaps(reports), "lagrangian": matrix(LAGRANGIAN, reports),
+              "free-2d": matrix(FREE_2D, reports), "free-3d": matrix(FREE_3D, reports),
+              "lagrangian": matrix(LAGRANGIAN, reports),
               "exact": matrix(EXACT, reports), "further": further(reports),
               "gradients": gradients(of_gradients)}
     for name, texts in {"atlas.md": releases, "atlas-newest.md": newest}.items():

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 from importlib.metadata import version
-from typing import Any
 
 from box import PRECISION, Array, Box, Cannot, Message, Problem, aside, laws
 from mpm_verify import serve
@@ -23,38 +22,13 @@ LAWS = {"corotated": CorotatedElasticity, "hencky": SigmaElasticity}
 PAD = 4
 
 
-class Svd(torch.autograd.Function):
-    """Singular values in double precision, with the adjoint that the package's function has in
-    single precision: differences of squares of singular values are at least 1e-6. (The adjoint of
-    `torch.linalg.svd` is not defined for equal singular values, such as those of F = I.)"""
-
-    @staticmethod
-    def forward(ctx: Any, f: torch.Tensor) -> tuple[torch.Tensor, ...]:
-        u, s, vt = torch.linalg.svd(f)
-        ctx.save_for_backward(u, s, vt)
-        return u, s, vt
-
-    @staticmethod
-    def backward(ctx: Any, u_bar: torch.Tensor, s_bar: torch.Tensor, vt_bar: torch.Tensor
-                 ) -> torch.Tensor:
-        u, s, vt = ctx.saved_tensors
-        squares = s * s
-        apart = squares[:, None, :] - squares[:, :, None]  # below zero above the diagonal
-        off = torch.triu(1 / apart.clamp_max(-1e-6), 1)
-        off = off - off.mT
-        of_u, of_v = u.mT @ u_bar, vt @ vt_bar.mT
-        inner = (off * (of_u - of_u.mT)) * s[:, None, :] + s[:, :, None] * (off * (of_v - of_v.mT))
-        return u @ (inner + torch.diag_embed(s_bar)) @ vt
-
-
 class MpmPytorch:
     name = "mpm-pytorch"
     version = version("mpm-pytorch")
 
-    def __init__(self, precision: str, any_law: bool, svd: str) -> None:
+    def __init__(self, precision: str, any_law: bool) -> None:
         self.precision = PRECISION[precision]
         torch.set_default_dtype({"f32": torch.float32, "f64": torch.float64}[precision])
-        self.svd = {"torch": torch.linalg.svd, "bounded": Svd.apply}[svd]
         self.capabilities = {"dimensions": [3], "laws": laws(list(LAWS), any_law),
                              "conditions": ["free"], "loads": ["gravity"], "several_bodies": True,
                              "gradients": ["young", "poisson", "density", "initial_velocity"]}
@@ -71,7 +45,7 @@ class MpmPytorch:
         if torch.get_default_dtype() == torch.float64:
             # The function of the package supports only single precision.
             del self.law.svd
-            self.law.svd = self.svd
+            self.law.svd = torch.linalg.svd
         self.solver = MPMSolver(
             self.x, rho=1.0, num_grids=box.n, dt=problem.dt, gravity=box.gravity().tolist(),
             size=[n * box.volume, 1.0, 1.0], device="cpu")
@@ -134,8 +108,6 @@ def tensor(values: Array | float) -> torch.Tensor:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--precision", choices=["f32", "f64"], default="f32")
-    parser.add_argument("--svd", choices=["torch", "bounded"], default="torch",
-                        help="singular value decomposition in double precision")
     parser.add_argument("--any-law", action="store_true", help="where nothing deforms")
     torch.set_num_threads(1)
     serve(MpmPytorch(**vars(parser.parse_args())))
