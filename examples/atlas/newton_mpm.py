@@ -86,13 +86,15 @@ class Newton:
         else:
             for name, value in material.items():
                 getattr(model.mpm, name).fill_(value)
-        options = {"voxel_size": problem.h, "air_drag": self.drag, "tolerance": self.tolerance, "grid_type": "dense",
-                   "grid_padding": 2, "solver": "gauss-seidel" if self.friction or FIRST else "cg",
+        options = {"voxel_size": problem.h, "air_drag": self.drag * mass / volume, "tolerance": self.tolerance,
+                   "grid_type": "dense", "grid_padding": 2, "solver": "gauss-seidel" if self.friction or FIRST else "cg",
                    **material, **self.options}
         self.solver = SolverImplicitMPM(model, Config(**{k: v for k, v in options.items() if k in OPTIONS}))
         self.states = [model.state(), model.state()]
-        for state in self.states if FIRST else []:
-            SolverImplicitMPM.enrich_state(state)
+        if FIRST:
+            self.solver.setup_collider(ground_height=-1e3)  # 0 unless said
+            for state in self.states:
+                SolverImplicitMPM.enrich_state(state)
 
     def layers(self, vectors: Array, side: float) -> Array:
         """Vectors in space; those of a plane body are repeated in two layers, `side` apart."""
@@ -133,7 +135,7 @@ if __name__ == "__main__":
     parser.add_argument("--any-law", action="store_true", help="where nothing deforms")
     parser.add_argument("--friction", action="store_true", help="plane bodies with walls")
     parser.add_argument("--substeps", type=int, default=1, help="of each step")
-    parser.add_argument("--drag", type=float, default=1e-6, help="that of the air, 1 unless said")
+    parser.add_argument("--drag", type=float, default=1e-6, help="of the air, per density (1/s)")
     parser.add_argument("--tolerance", type=float, default=1e-6, help="1e-4 unless said")
     parser.add_argument("--solver", help="default: cg, or gauss-seidel with friction")
     parser.add_argument("--velocity-basis", help="default: B2, or Q1 before 1.1.0")

@@ -22,7 +22,7 @@ PANELS: dict[str, dict[str, dict[str, str]]] = {
         "translating-block-3d": {"[8, 16, 24, 32]": "[8, 16]"},
         "falling-block-3d": {"[8, 16, 24, 32]": "[8, 16]"},
         "free-bar-pulse-hencky-3d": {"[32, 40, 48, 56]": "[24, 28, 32, 40]"},
-        "lame-block": {"[9, 12, 15, 18]": "[6, 8, 10, 12]"},
+        "lame-block": {"[9, 12, 15, 18]": "[6, 8]"},
         "narrow-gap-3d": {"dt: 0.01": "dt: 0.02"},
     },
 }
