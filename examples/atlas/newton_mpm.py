@@ -92,7 +92,7 @@ class Newton:
         self.solver = SolverImplicitMPM(model, Config(**{k: v for k, v in options.items() if k in OPTIONS}))
         self.states = [model.state(), model.state()]
         if FIRST:
-            self.solver.setup_collider(ground_height=-1e3)  # 0 unless said
+            self.solver.mpm_model.setup_collider(ground_height=-1e3)  # 0 unless said
             for state in self.states:
                 SolverImplicitMPM.enrich_state(state)
 
