@@ -87,8 +87,8 @@ class Newton:
             for name, value in material.items():
                 getattr(model.mpm, name).fill_(value)
         options = {"voxel_size": problem.h, "air_drag": self.drag * mass / volume, "tolerance": self.tolerance,
-                   "grid_type": "dense", "grid_padding": 2, "solver": "gauss-seidel" if self.friction or FIRST else "cg",
-                   **material, **self.options}
+                   "grid_type": "dense", "grid_padding": 2, **material,
+                   "solver": "gauss-seidel" if self.friction or FIRST else "cg", **self.options}
         self.solver = SolverImplicitMPM(model, Config(**{k: v for k, v in options.items() if k in OPTIONS}))
         self.states = [model.state(), model.state()]
         if FIRST:

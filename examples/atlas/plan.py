@@ -188,7 +188,7 @@ CODES = [
         about="3-D; quadratic; friction walls", implicit=True,
         reports={"particles-on-faces": "newton-air-drag", "stress-halved": "newton-half-force"}, modes={
         "velocities Q1, f32": ["--velocity-basis", "Q1"], "velocities B3, f32": ["--velocity-basis", "B3"],
-        "GIMP, f32": ["--integration-scheme", "gimp"], "PIC transfer, f32": ["--transfer-scheme", "pic"]}),
+        "GIMP, f32": ["--integration-scheme", "gimp"]}),
     Code("phyz", "phyz-particle", SPACE + FREE_3D, {"FLIP 0.95": []}, {
         "FLIP 1": (["--flip", "1"], ["translating-block-3d", "free-bar-pulse-small-3d",
                                      "lame-block"]),

@@ -112,8 +112,10 @@ def linked(findings: str, code: Code) -> str:
 
 
 def relative(column: Column, row: dict[str, str], rows: list[dict[str, str]]) -> float | None:
-    """Error on the finest level, divided by that of the own method."""
+    """Error on the finest level, divided by that of the own method; none if all errors are rounding."""
     if not row["suite"].startswith(DEFORMING) or not row["errors"] or row["failed"]:
+        return None
+    if row["reason"].startswith("0 usable levels"):
         return None
     for own in rows:
         if (own["code"], own["release"], own["suite"]) == ("own", "here", row["suite"]) and \

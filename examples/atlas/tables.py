@@ -14,9 +14,9 @@ RESULTS = HERE / "results.csv"
 # `doctor`, `reason` has its findings and `cells` the number of examinations. Otherwise `cells`, `failed` (cells of the
 # levels that fail), `errors` and `momentum` (relative drift) have one entry for each level. The columns from
 # `value_difference` to `sweep` are checks of a derivative.
-COLUMNS = ["code", "release", "variant", "suite", "case", "derivative_by", "verdict", "order", "order_low", "order_high",
-           "cells", "failed", "errors", "momentum", "lacks", "value_difference", "taylor_orders", "derivative_error", "sweep",
-           "seconds", "reason"]
+COLUMNS = ["code", "release", "variant", "suite", "case", "derivative_by", "verdict", "order", "order_low",
+           "order_high", "cells", "failed", "errors", "momentum", "lacks", "value_difference", "taylor_orders",
+           "derivative_error", "sweep", "seconds", "reason"]
 
 
 def read() -> list[dict[str, str]]:
