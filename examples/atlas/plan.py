@@ -186,9 +186,9 @@ CODES = [
         "dt as h^2": ([], ["free-bar-pulse-hencky-3d"]),
     }, {"dt as h^2": {'dt: "0.2*h/c"': 'dt: "6.4*h^2/c"'}}, panel="space",
         about="3-D; quadratic; friction walls", implicit=True,
-        reports={"particles-on-faces": "newton-air-drag", "mass-or-volume-scaled": "newton-half-force"}, modes={
-        "velocities Q1, f32": ["--velocity-basis", "Q1"], "velocities B3, f32": ["--velocity-basis", "B3"],
-        "GIMP, f32": ["--integration-scheme", "gimp"]}),
+        reports={"particles-on-faces": "newton-air-drag", "mass-or-volume-scaled": "newton-half-force",
+                 "stress-not-cauchy": "newton-stress"}, modes={
+        "velocities Q1, f32": ["--velocity-basis", "Q1"], "GIMP, f32": ["--integration-scheme", "gimp"]}),
     Code("phyz", "phyz-particle", SPACE + FREE_3D, {"FLIP 0.95": []}, {
         "FLIP 1": (["--flip", "1"], ["translating-block-3d", "free-bar-pulse-small-3d",
                                      "lame-block"]),
