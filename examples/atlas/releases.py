@@ -71,8 +71,8 @@ def summary(rows: list[dict[str, str]]) -> str:
     lines = []
     for column in columns():
         mine = [row for row in rows if column.owns(row)]
-        if any(row["suite"] == "doctor" or row["verdict"] == "cannot start" for row in mine):
-            lines.append((column.group, *judge(column, mine, rows)))
+        for examined in [row for row in mine if row["suite"] == "doctor" or row["verdict"] == "cannot start"]:
+            lines.append((column.group, *judge(column, examined, mine, rows)))
     lines.sort(key=lambda line: line[:2])
     out = []
     for group, some in groupby(lines, key=lambda line: line[0]):
@@ -83,10 +83,8 @@ def summary(rows: list[dict[str, str]]) -> str:
     return "\n".join(out)
 
 
-def judge(column: Column, mine: list[dict[str, str]], rows: list[dict[str, str]]) -> tuple:
+def judge(column: Column, examined: dict[str, str], mine: list[dict[str, str]], rows: list[dict[str, str]]) -> tuple:
     """Key of the rank, name, verdict, relative error, and findings of a column."""
-    wanted = [row for row in mine if row["suite"] == "doctor" or row["verdict"] == "cannot start"]
-    examined = wanted[0] if wanted else {"verdict": "not examined", "reason": ""}
     ratios = [ratio for row in mine if (ratio := relative(column, row, rows))]
     error = exp(fmean(map(log, ratios))) if ratios else inf
     failed = dict.fromkeys(row["suite"] for row in mine if row["verdict"] == "failed")
@@ -97,8 +95,7 @@ def judge(column: Column, mine: list[dict[str, str]], rows: list[dict[str, str]]
     if examined["verdict"] == "defect":
         found.insert(0, examined["reason"])
     verdict = "defect" if found else examined["verdict"]
-    rank = VERDICTS.index(verdict)
-    return ((rank, error), f"{column.code.label} {column.release}, {column.mode}",
+    return ((VERDICTS.index(verdict), error), f"{column.code.label} {column.release}, {column.mode}",
             column.code.about, verdict, f"{error:.2f}" if ratios else "",
             linked("; ".join(found) or examined["reason"], column.code))
 
