@@ -185,7 +185,7 @@ CODES = [
         "two substeps": (["--substeps", "2"], ["free-bar-pulse-hencky-3d"]),
         "dt as h^2": ([], ["free-bar-pulse-hencky-3d"]),
     }, {"dt as h^2": {'dt: "0.2*h/c"': 'dt: "6.4*h^2/c"'}}, panel="space",
-        about="3-D; quadratic; friction walls", implicit=True,
+        about="3-D; quadratic, or linear (before 1.1.0, Q1); friction walls", implicit=True,
         reports={"particles-on-faces": "newton-air-drag", "mass-or-volume-scaled": "newton-half-force",
                  "stress-not-cauchy": "newton-stress"}, modes={"velocities Q1, f32": ["--velocity-basis", "Q1"]}),
     Code("phyz", "phyz-particle", SPACE + FREE_3D, {"FLIP 0.95": []}, {
